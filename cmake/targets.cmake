@@ -1,0 +1,50 @@
+# How this project's own targets are made: warnings are errors, headers are found from the root.
+include(GoogleTest)
+add_library(roomwise_flags INTERFACE)
+target_compile_options(roomwise_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+  -ffp-contract=off)  # no fused multiply-add: the same log gives the same bytes on every machine
+target_include_directories(roomwise_flags INTERFACE ${CMAKE_SOURCE_DIR})
+
+# roomwise_library(NAME SOURCES a.cpp ... LINKS target ...)
+function(roomwise_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_link_libraries(${name} PUBLIC ${arg_LINKS} PRIVATE $<BUILD_INTERFACE:roomwise_flags>)
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
+endfunction()
+
+# roomwise_program(NAME SOURCES a.cpp ... LINKS target ...)
+function(roomwise_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINKS} roomwise_flags)
+endfunction()
+
+# roomwise_test(NAME LABEL label [TIMEOUT s] SOURCES a_test.cpp ... LINKS target ...)
+# One gtest program; every TEST in it becomes a ctest entry with that label.
+function(roomwise_test name)
+  cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main
+                                        roomwise_flags)
+  target_compile_definitions(${name} PRIVATE
+    ROOMWISE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ROOMWISE_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  gtest_discover_tests(${name} TEST_PREFIX "${arg_LABEL}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS "${arg_LABEL}" TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# roomwise_fuzzer(NAME SOURCES fuzz_x.cpp LINKS target ...): only in the fuzz preset.
+function(roomwise_fuzzer name)
+  if(NOT ROOMWISE_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINKS} roomwise_flags -fsanitize=fuzzer)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz)
+endfunction()
