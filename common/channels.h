@@ -33,9 +33,9 @@ inline constexpr Channel<params_t> kParams{"PARAMS", "1", "every process", "view
 }  // namespace channels
 
 /// Every channel, for tools that must treat them all.
-inline constexpr auto kAllChannels = std::make_tuple(
-    channels::kKinectFrame, channels::kLandmarks, channels::kSegments, channels::kSegmentTrain,
-    channels::kOdometry, channels::kPose, channels::kLandmarkMap, channels::kTruth,
-    channels::kHealth, channels::kParams);
+inline constexpr auto kAllChannels =
+    std::make_tuple(channels::kKinectFrame, channels::kLandmarks, channels::kSegments,
+                    channels::kSegmentTrain, channels::kOdometry, channels::kPose,
+                    channels::kLandmarkMap, channels::kTruth, channels::kHealth, channels::kParams);
 
 }  // namespace roomwise

@@ -12,8 +12,9 @@ namespace roomwise {
 using ServiceFactory = std::function<std::shared_ptr<void>(Bus&)>;
 
 /// Everything a process does that is not its service: command line, parameters, the bus, HEALTH and
-/// PARAMS at 1 Hz, signals, errors. Returns the exit status: 0 after SIGINT, SIGTERM or the end of a
-/// whole log; 1 after a damaged log, a bad parameter or any other error, said in one line on stderr.
+/// PARAMS at 1 Hz, signals, errors. Returns the exit status: 0 after SIGINT, SIGTERM or the end of
+/// a whole log; 1 after a damaged log, a bad parameter or any other error, said in one line on
+/// stderr.
 int run_service(std::string_view name, int argc, const char* const* argv, const ParamFields& params,
                 const ServiceFactory& make_service);
 

@@ -96,17 +96,17 @@ class Bus {
 
 template <class Message, class Handler>
 void Bus::subscribe(const Channel<Message>& channel, Handler handler, Delivery delivery) {
-  add_decoder(channel.name, [this, handler = std::move(handler),
-                             message = std::make_shared<Message>()](
-                                std::span<const std::uint8_t> bytes, ChannelStatistics& seen) {
-    const DecodeResult result = decode(bytes, *message);
-    if (result != DecodeResult::kOk) {
-      ++seen.undecodable;
-      return;
-    }
-    account(seen, message->seq);
-    handler(static_cast<const Message&>(*message));
-  });
+  add_decoder(channel.name,
+              [this, handler = std::move(handler), message = std::make_shared<Message>()](
+                  std::span<const std::uint8_t> bytes, ChannelStatistics& seen) {
+                const DecodeResult result = decode(bytes, *message);
+                if (result != DecodeResult::kOk) {
+                  ++seen.undecodable;
+                  return;
+                }
+                account(seen, message->seq);
+                handler(static_cast<const Message&>(*message));
+              });
   subscribe_bytes(std::string(channel.name), delivery);
 }
 

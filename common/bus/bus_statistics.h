@@ -10,7 +10,7 @@ namespace roomwise {
 
 /// What became of one channel's messages in this process.
 struct ChannelStatistics {
-  std::int64_t received = 0;     ///< decoded and handled
+  std::int64_t received = 0;  ///< decoded and handled
   std::int64_t published = 0;
   std::int64_t missed = 0;       ///< by gaps in seq
   std::int64_t undecodable = 0;  ///< wrong size, fingerprint or counts

@@ -18,7 +18,8 @@ Time next_multiple(Time time, Duration period) {
 /// a damaged time stamp.
 bool is_far(Time from, Time time) {
   constexpr std::int64_t kFarthest_us = 60'000'000;
-  return utime_of(time) < utime_of(from) - kFarthest_us || utime_of(time) - kFarthest_us > utime_of(from);
+  return utime_of(time) < utime_of(from) - kFarthest_us ||
+         utime_of(time) - kFarthest_us > utime_of(from);
 }
 
 /// LogFile takes any 64-bit number for a time; keep sums of it and a minute from overflowing.

@@ -9,13 +9,13 @@
 
 namespace roomwise {
 
-enum class [[nodiscard]] DecodeResult {
-  kOk,
-  kTooShort,     ///< no room for a fingerprint
-  kForeign,      ///< another type's fingerprint, or another version of this type
-  kBadCounts,    ///< a count or string length does not fit the bytes
-  kTrailing,     ///< bytes left over after the message
-  kUndecodable,  ///< lcm's decoder refused it
+enum class [[nodiscard]] DecodeResult{
+    kOk,
+    kTooShort,     ///< no room for a fingerprint
+    kForeign,      ///< another type's fingerprint, or another version of this type
+    kBadCounts,    ///< a count or string length does not fit the bytes
+    kTrailing,     ///< bytes left over after the message
+    kUndecodable,  ///< lcm's decoder refused it
 };
 
 /// Decodes `bytes` into `message`. Nothing a sender can put on the wire makes this throw, read out

@@ -8,13 +8,13 @@
 
 namespace roomwise {
 
-enum class [[nodiscard]] FrameResult {
-  kOk,
-  kBadSize,        ///< width or height not in [16, 4096] (depth) or [1, 4096] (colour)
-  kBadDepth,       ///< depth data does not decode to width x height
-  kBadColor,       ///< colour data does not decode to width x height
-  kBadIntrinsics,  ///< focal length not positive, or a number not finite
-  kBadPose,        ///< quaternion not of unit length, or a number not finite
+enum class [[nodiscard]] FrameResult{
+    kOk,
+    kBadSize,        ///< width or height not in [16, 4096] (depth) or [1, 4096] (colour)
+    kBadDepth,       ///< depth data does not decode to width x height
+    kBadColor,       ///< colour data does not decode to width x height
+    kBadIntrinsics,  ///< focal length not positive, or a number not finite
+    kBadPose,        ///< quaternion not of unit length, or a number not finite
 };
 
 /// The name a result is counted under on HEALTH, e.g. "frame_bad_depth".

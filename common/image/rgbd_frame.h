@@ -18,7 +18,7 @@ struct PinholeCamera {
 struct DepthImage {
   int width_px = 0;
   int height_px = 0;
-  double unit_m = 0.001;              ///< metres a step
+  double unit_m = 0.001;             ///< metres a step
   std::vector<std::uint16_t> steps;  ///< height x width
 
   std::size_t size() const { return steps.size(); }

@@ -23,19 +23,18 @@ Overloaded(Visitors...) -> Overloaded<Visitors...>;
 /// What a field may hold, to follow "must be".
 std::string allowed_values(const ParamField& field) {
   return std::visit(
-      Overloaded{
-          [](const ParamField::Range<double>& r) {
-            return fmt::format("a number in [{}, {}]", r.smallest, r.largest);
-          },
-          [](const ParamField::Range<int>& r) {
-            return fmt::format("a whole number in [{}, {}]", r.smallest, r.largest);
-          },
-          [](bool*) { return std::string("true or false"); },
-          [](const ParamField::Choice& c) {
-            return c.allowed.empty()
-                       ? std::string("a text")
-                       : fmt::format("one of \"{}\"", fmt::join(c.allowed, "\", \""));
-          }},
+      Overloaded{[](const ParamField::Range<double>& r) {
+                   return fmt::format("a number in [{}, {}]", r.smallest, r.largest);
+                 },
+                 [](const ParamField::Range<int>& r) {
+                   return fmt::format("a whole number in [{}, {}]", r.smallest, r.largest);
+                 },
+                 [](bool*) { return std::string("true or false"); },
+                 [](const ParamField::Choice& c) {
+                   return c.allowed.empty()
+                              ? std::string("a text")
+                              : fmt::format("one of \"{}\"", fmt::join(c.allowed, "\", \""));
+                 }},
       field.slot);
 }
 
@@ -45,32 +44,30 @@ bool contains(const std::vector<std::string>& allowed, const std::string& value)
 
 /// The assignment that puts `node` into the field; empty if the field may not hold it.
 std::function<void()> assignment(const toml::node& node, const ParamField& field) {
-  return std::visit(
-      Overloaded{
-          [&](const ParamField::Range<double>& r) -> std::function<void()> {
-            if (!node.is_number()) return {};
-            const double value = *node.value<double>();
-            if (!(value >= r.smallest && value <= r.largest)) return {};
-            return [r, value] { *r.value = value; };
-          },
-          [&](const ParamField::Range<int>& r) -> std::function<void()> {
-            if (!node.is_integer()) return {};
-            const auto value = *node.value<std::int64_t>();
-            if (value < r.smallest || value > r.largest) return {};
-            return [r, value] { *r.value = static_cast<int>(value); };
-          },
-          [&](bool* target) -> std::function<void()> {
-            if (!node.is_boolean()) return {};
-            const bool value = *node.value<bool>();
-            return [target, value] { *target = value; };
-          },
-          [&](const ParamField::Choice& c) -> std::function<void()> {
-            if (!node.is_string()) return {};
-            std::string value = *node.value<std::string>();
-            if (!contains(c.allowed, value)) return {};
-            return [target = c.value, value] { *target = value; };
-          }},
-      field.slot);
+  return std::visit(Overloaded{[&](const ParamField::Range<double>& r) -> std::function<void()> {
+                                 if (!node.is_number()) return {};
+                                 const double value = *node.value<double>();
+                                 if (!(value >= r.smallest && value <= r.largest)) return {};
+                                 return [r, value] { *r.value = value; };
+                               },
+                               [&](const ParamField::Range<int>& r) -> std::function<void()> {
+                                 if (!node.is_integer()) return {};
+                                 const auto value = *node.value<std::int64_t>();
+                                 if (value < r.smallest || value > r.largest) return {};
+                                 return [r, value] { *r.value = static_cast<int>(value); };
+                               },
+                               [&](bool* target) -> std::function<void()> {
+                                 if (!node.is_boolean()) return {};
+                                 const bool value = *node.value<bool>();
+                                 return [target, value] { *target = value; };
+                               },
+                               [&](const ParamField::Choice& c) -> std::function<void()> {
+                                 if (!node.is_string()) return {};
+                                 std::string value = *node.value<std::string>();
+                                 if (!contains(c.allowed, value)) return {};
+                                 return [target = c.value, value] { *target = value; };
+                               }},
+                    field.slot);
 }
 
 const ParamField* find_field(const ParamFields& fields, std::string_view name) {
@@ -118,7 +115,8 @@ void apply_toml(std::string_view toml, std::string_view source, const ParamField
     const toml::table table = toml::parse(toml, source);
     for (const auto& [key, node] : table) {
       const auto refuse = [&, line = node.source().begin.line](const std::string& what) {
-        throw std::runtime_error(fmt::format("{}:{}: {} must be {}", source, line, key.str(), what));
+        throw std::runtime_error(
+            fmt::format("{}:{}: {} must be {}", source, line, key.str(), what));
       };
       const ParamField* field = find_field(fields, key.str());
       if (field == nullptr) refuse("one of the parameters " + names_of(fields));
