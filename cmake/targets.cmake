@@ -24,6 +24,7 @@ endfunction()
 
 # roomwise_test(NAME LABEL label [TIMEOUT s] SOURCES a_test.cpp ... LINKS target ...)
 # One gtest program; every TEST in it becomes a ctest entry with that label.
+# RapidCheck's seed is fixed: a red run can be run again.
 function(roomwise_test name)
   cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINKS" ${ARGN})
   if(NOT arg_TIMEOUT)
@@ -36,7 +37,8 @@ function(roomwise_test name)
     ROOMWISE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ROOMWISE_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   gtest_discover_tests(${name} TEST_PREFIX "${arg_LABEL}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${arg_LABEL}" TIMEOUT ${arg_TIMEOUT})
+                       PROPERTIES LABELS "${arg_LABEL}" TIMEOUT ${arg_TIMEOUT}
+                                  ENVIRONMENT "RC_PARAMS=seed=2012")
 endfunction()
 
 # roomwise_fuzzer(NAME SOURCES fuzz_x.cpp LINKS target ...): only in the fuzz preset.

@@ -12,6 +12,8 @@ struct LogEvent {
   Time time{};
   std::string channel;
   std::vector<std::uint8_t> data;
+
+  bool operator==(const LogEvent&) const = default;
 };
 
 }  // namespace roomwise

@@ -92,10 +92,15 @@ std::string toml_number(double value) {
   return text;
 }
 
+/// A one-line TOML string; toml++ itself would print a leading line feed so that it is lost on
+/// reading.
 std::string toml_string(const std::string& value) {
-  std::ostringstream text;
-  text << toml::value<std::string>(value);
-  return text.str();
+  std::string text = "\"";
+  for (const char c : value) {
+    const bool plain = static_cast<unsigned char>(c) >= 0x20U && c != '"' && c != '\\' && c != 0x7f;
+    text += plain ? std::string(1, c) : fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+  }
+  return text + "\"";
 }
 
 std::string toml_value(const ParamField& field) {
