@@ -48,7 +48,9 @@ void LogBus::every(Duration period, Tick tick) {
 
 void LogBus::run() {
   LogEvent event;
-  while (!stop_requested() && source_(event)) {
+  while (!stop_requested()) {
+    reached_end_ = !source_(event);
+    if (reached_end_) return;
     const Time time = clamp_time(event.time);
     fire_ticks_until(time);
     now_ = time;

@@ -29,8 +29,8 @@ class LogBus : public Bus {
   void run() override;
   bool is_replay() const override { return true; }
 
-  /// Sets the time of what is published outside run().
-  void set_now(Time now) { now_ = now; }
+  /// False if stop() ended run() before the log did.
+  bool reached_end() const { return reached_end_; }
 
  protected:
   void subscribe_bytes(const std::string& channel, Delivery delivery) override;
@@ -49,6 +49,7 @@ class LogBus : public Bus {
   Sink sink_;
   Tap tap_;
   Time now_{};
+  bool reached_end_ = false;
   LogEvent out_;
   std::vector<Periodic> periodics_;
 };

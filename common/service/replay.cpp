@@ -62,8 +62,12 @@ bool Replay::is_own_output(const LogEvent& event) const {
 }
 
 void Replay::finish() {
+  if (writer_) writer_->close();
+  if (!bus_->reached_end()) {
+    throw std::runtime_error(fmt::format("stopped at byte {} of {} in {}", reader_.position_bytes(),
+                                         reader_.size_bytes(), replay_path_.string()));
+  }
   if (!writer_) return;
-  writer_->close();
   std::filesystem::rename(unfinished(record_path_), record_path_);
 }
 

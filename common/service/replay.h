@@ -18,7 +18,8 @@ class Replay {
 
   LogBus& bus() { return *bus_; }
 
-  /// Completes the record.
+  /// Completes the record. Throws std::runtime_error if the run was stopped before the log ended;
+  /// what there is of the record then stays in NAME.part.
   void finish();
 
   /// True if every byte of the input was a whole event and every message of ours decodable.

@@ -52,7 +52,8 @@ int run_replay(const Options& options, const std::string& name, const ParamField
 int run_service(std::string_view name_view, int argc, const char* const* argv,
                 const ParamFields& params, const ServiceFactory& make_service) {
   const std::string name(name_view);
-  spdlog::set_default_logger(spdlog::stderr_logger_st(name));
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_st>()));
   spdlog::set_pattern("%v");
   try {
     const ParsedOptions parsed = parse_options(name, argc, argv);

@@ -4,8 +4,8 @@
 
 namespace roomwise {
 
-/// Recordings that are not part of the project: the folder ROOMWISE_DATA, else ../shared/data beside
-/// the source tree.
+/// Recordings that are not part of the project: the folder ROOMWISE_DATA, else ../shared/data
+/// beside the source tree.
 inline std::filesystem::path shared_data() {
   if (const char* folder = std::getenv("ROOMWISE_DATA")) return folder;
   return std::filesystem::path(ROOMWISE_SOURCE_DIR) / "../shared/data";
@@ -14,7 +14,7 @@ inline std::filesystem::path shared_data() {
 }  // namespace roomwise
 
 /// Skips the test, saying what is missing, unless `shared_data() / name` is there.
-#define ROOMWISE_NEED_DATA(name)                                                     \
-  if (!std::filesystem::exists(roomwise::shared_data() / (name)))                    \
-  GTEST_SKIP() << "no recording " << (roomwise::shared_data() / (name)).string()     \
+#define ROOMWISE_NEED_DATA(name)                                                 \
+  if (!std::filesystem::exists(roomwise::shared_data() / (name)))                \
+  GTEST_SKIP() << "no recording " << (roomwise::shared_data() / (name)).string() \
                << "; put it there or name its folder in ROOMWISE_DATA"
