@@ -9,20 +9,20 @@
 
 namespace roomwise {
 
-enum class [[nodiscard]] DecodeResult{
-    kOk,
-    kTooShort,     ///< no room for a fingerprint
-    kForeign,      ///< another type's fingerprint, or another version of this type
-    kBadCounts,    ///< a count or string length does not fit the bytes
-    kTrailing,     ///< bytes left over after the message
-    kUndecodable,  ///< lcm's decoder refused it
+enum class DecodeResult {
+  kOk,
+  kTooShort,     ///< no room for a fingerprint
+  kForeign,      ///< another type's fingerprint, or another version of this type
+  kBadCounts,    ///< a count or string length does not fit the bytes
+  kTrailing,     ///< bytes left over after the message
+  kUndecodable,  ///< lcm's decoder refused it
 };
 
 /// Decodes `bytes` into `message`. Nothing a sender can put on the wire makes this throw, read out
 /// of bounds or allocate more than a small multiple of `bytes`: lcm-gen 1.3.1's decoder would
 /// (count -1: std::length_error; count 2e9: 8 GB). On failure `message` is unspecified.
 template <class Message>
-DecodeResult decode(std::span<const std::uint8_t> bytes, Message& message) {
+[[nodiscard]] DecodeResult decode(std::span<const std::uint8_t> bytes, Message& message) {
   constexpr std::size_t kFingerprintBytes = 8;
   if (bytes.size() < kFingerprintBytes) return DecodeResult::kTooShort;
   std::uint64_t fingerprint = 0;
