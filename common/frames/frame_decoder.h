@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string_view>
-#include <vector>
 
+#include "common/frames/jpeg.h"
+#include "common/image/depth_codec.h"
 #include "common/image/rgbd_frame.h"
 #include "roomwise/kinect_frame_t.hpp"
 
@@ -12,9 +14,11 @@ enum class [[nodiscard]] FrameResult{
     kOk,
     kBadSize,        ///< width or height not in [16, 4096] (depth) or [1, 4096] (colour)
     kBadDepth,       ///< depth data does not decode to width x height
+    kBadDepthUnit,   ///< depth_unit_m not in (0, 0.1]
     kBadColor,       ///< colour data does not decode to width x height
-    kBadIntrinsics,  ///< focal length not positive, or a number not finite
-    kBadPose,        ///< quaternion not of unit length, or a number not finite
+    kBadIntrinsics,  ///< focal length or principal point far outside any real camera's, or not
+                     ///< finite
+    kBadPose,        ///< quaternion not of unit length, camera more than 100 m off, or not finite
 };
 
 /// The name a result is counted under on HEALTH, e.g. "frame_bad_depth".
@@ -29,19 +33,18 @@ class FrameDecoder {
   explicit FrameDecoder(ColorUse color_use) : color_use_(color_use) {}
 
   /// Decodes `message` into `frame`, reusing its memory. On failure `frame` is unspecified.
-  /// With kSkip, or if the message has none, frame.color is empty.
+  /// With kSkip the colour part is not even looked at; then, or if the message has no colour,
+  /// frame.color is empty and frame.color_camera all zero. The quaternion is normalised.
   FrameResult decode(const kinect_frame_t& message, RgbdFrame& frame);
 
  private:
-  FrameResult decode_color(const kinect_frame_t& message, ColorImage& color);
+  FrameResult decode_depth(const kinect_frame_t& message, DepthImage& depth);
+  FrameResult decode_color(const kinect_frame_t& message, RgbdFrame& frame);
+  bool decode_pixels(const kinect_frame_t& message, std::span<std::uint8_t> rgb);
 
   ColorUse color_use_;
+  DepthDecoder pdz16_;
+  JpegDecoder jpeg_;
 };
-
-/// Fills the depth part of `message` from `depth` with this encoding (kinect_frame_t::DEPTH_*).
-void encode_depth(const DepthImage& depth, std::int8_t encoding, kinect_frame_t& message);
-
-/// Fills the pose part of `message`.
-void encode_pose(const Eigen::Isometry3d& T_robot_camera, kinect_frame_t& message);
 
 }  // namespace roomwise

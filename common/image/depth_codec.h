@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,7 @@ class DepthEncoder {
 
  private:
   struct Memory;
-  Memory* memory_;
+  std::unique_ptr<Memory> memory_;
 };
 
 class DepthDecoder {
@@ -43,7 +44,7 @@ class DepthDecoder {
 
  private:
   struct Memory;
-  Memory* memory_;
+  std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace roomwise
