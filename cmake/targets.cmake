@@ -22,11 +22,11 @@ function(roomwise_program name)
   target_link_libraries(${name} PRIVATE ${arg_LINKS} roomwise_flags)
 endfunction()
 
-# roomwise_test(NAME LABEL label [TIMEOUT s] SOURCES a_test.cpp ... LINKS target ...)
+# roomwise_test(NAME LABEL label [TIMEOUT s] [SERIAL] SOURCES a_test.cpp ... LINKS target ...)
 # One gtest program; every TEST in it becomes a ctest entry with that label.
-# RapidCheck's seed is fixed: a red run can be run again.
+# SERIAL: never beside another test. RapidCheck's seed is fixed: a red run can be run again.
 function(roomwise_test name)
-  cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "SERIAL" "LABEL;TIMEOUT" "SOURCES;LINKS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -38,7 +38,7 @@ function(roomwise_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   gtest_discover_tests(${name} TEST_PREFIX "${arg_LABEL}." DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS "${arg_LABEL}" TIMEOUT ${arg_TIMEOUT}
-                                  ENVIRONMENT "RC_PARAMS=seed=2012")
+                                  ENVIRONMENT "RC_PARAMS=seed=2012" RUN_SERIAL ${arg_SERIAL})
 endfunction()
 
 # roomwise_fuzzer(NAME SOURCES fuzz_x.cpp LINKS target ...): only in the fuzz preset.

@@ -10,15 +10,15 @@
 
 namespace roomwise {
 
-enum class [[nodiscard]] FrameResult{
-    kOk,
-    kBadSize,        ///< width or height not in [16, 4096] (depth) or [1, 4096] (colour)
-    kBadDepth,       ///< depth data does not decode to width x height
-    kBadDepthUnit,   ///< depth_unit_m not in (0, 0.1]
-    kBadColor,       ///< colour data does not decode to width x height
-    kBadIntrinsics,  ///< focal length or principal point far outside any real camera's, or not
-                     ///< finite
-    kBadPose,        ///< quaternion not of unit length, camera more than 100 m off, or not finite
+enum class FrameResult {
+  kOk,
+  kBadSize,        ///< width or height not in [16, 4096] (depth) or [1, 4096] (colour)
+  kBadDepth,       ///< depth data does not decode to width x height
+  kBadDepthUnit,   ///< depth_unit_m not in (0, 0.1]
+  kBadColor,       ///< colour data does not decode to width x height
+  kBadIntrinsics,  ///< focal length or principal point far outside any real camera's, or not
+                   ///< finite
+  kBadPose,        ///< quaternion not of unit length, camera more than 100 m off, or not finite
 };
 
 /// The name a result is counted under on HEALTH, e.g. "frame_bad_depth".
