@@ -51,15 +51,7 @@ struct TypesOf<std::tuple<Message...>> {
   using Types = ::testing::Types<Message...>;
 };
 
-struct TypeName {
-  template <class Message>
-  static std::string GetName(
-      int /*index*/) {  // NOLINT(readability-identifier-naming): gtest's name
-    return Message::getTypeName();
-  }
-};
-
-TYPED_TEST_SUITE(EveryMessage, TypesOf<AllMessages>::Types, TypeName);
+TYPED_TEST_SUITE(EveryMessage, TypesOf<AllMessages>::Types);
 
 TYPED_TEST(EveryMessage, HasItsGoldenBytes) {
   const std::string hex = to_hex(example_bytes<TypeParam>());
@@ -170,14 +162,18 @@ TEST(AllChannels, HaveNamesOfTheirOwnThatLcmCarries) {
 
 /// A count on the wire: which message it is in and at which byte it starts.
 struct WireCount {
+  std::string type;
   Bytes bytes;
   std::size_t at;
   DecodeResult (*decode)(std::span<const std::uint8_t>);
 };
 
+std::ostream& operator<<(std::ostream& out, const WireCount& count) { return out << count.type; }
+
 template <class Message>
 WireCount wire_count(std::size_t at) {
-  return {example_bytes<Message>(), at, [](std::span<const std::uint8_t> bytes) {
+  return {Message::getTypeName(), example_bytes<Message>(), at,
+          [](std::span<const std::uint8_t> bytes) {
             Message message;
             return decode(bytes, message);
           }};
@@ -186,7 +182,7 @@ WireCount wire_count(std::size_t at) {
 class Counts : public ::testing::TestWithParam<WireCount> {};
 
 TEST_P(Counts, ThatAreNegativeHugeOrOneTooManyAreRefused) {
-  const auto& [whole, at, decode_it] = GetParam();
+  const auto& [type, whole, at, decode_it] = GetParam();
   ASSERT_EQ(decode_it(whole), DecodeResult::kOk);
   const auto true_count = static_cast<std::uint32_t>(whole[at + 3]);
   for (const std::uint32_t wrong :
@@ -195,7 +191,7 @@ TEST_P(Counts, ThatAreNegativeHugeOrOneTooManyAreRefused) {
     for (std::size_t i = 0; i < 4; ++i) {
       bytes[at + i] = static_cast<std::uint8_t>(wrong >> (24 - 8 * i));
     }
-    EXPECT_NE(decode_it(bytes), DecodeResult::kOk) << wrong;
+    EXPECT_NE(decode_it(bytes), DecodeResult::kOk) << type << ' ' << wrong;
   }
 }
 
