@@ -3,8 +3,8 @@ import unittest
 
 from rule_case import RuleCase
 
-from checks import (citations, core_purity, file_length, formatting, layers, machine_traces, names,
-                    service_folders, shell_scripts)
+from checks import (citations, core_purity, file_length, formatting, layers, links, machine_traces,
+                    names, service_folders, shell_scripts)
 
 
 class CorePurity(RuleCase):
@@ -137,6 +137,17 @@ class FileLength(RuleCase):
     def test_401_lines_are_refused(self):
         self.assert_refused({"a.cpp": "\n" * 401, "scripts/demo": "\n" * 401},
                             "a.cpp:401: 401 lines", "scripts/demo:401:")
+
+
+class Links(RuleCase):
+    rule = links
+
+    def test_files_folders_and_addresses_are_clean(self):
+        self.assert_clean({"a/b.h": "", "README.md": "[b](a/b.h) [b](a/b.h#L3) [a](a/) [x](https://x.org)",
+                           "a/README.md": "[up](../README.md) [here](b.h), f[i](x y)"})
+
+    def test_a_link_to_nothing_is_refused(self):
+        self.assert_refused({"a/README.md": "see\n[b](b.h)\n"}, "a/README.md:2: b.h is not there")
 
 
 class MachineTraces(RuleCase):
