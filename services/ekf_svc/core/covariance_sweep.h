@@ -1,0 +1,25 @@
+#pragma once
+#include <cstddef>
+#include <span>
+
+namespace roomwise::ekf {
+
+/// One rank-1 term: sign * left * right^T.
+struct SweepTerm {
+  const double* left;   ///< at least n rounded up to 8 values, those past n zero
+  const double* right;  ///< the same, and on a cache line
+  double sign;
+};
+
+/// Most terms one sweep takes.
+inline constexpr std::size_t kSweepTermsMax = 66;
+
+/// Adds the sum of `terms` to the n x n matrix at `matrix` (row-major, rows on cache lines, room for
+/// n rounded up to 8 rows and columns), on and above the diagonal; below it, values of the same
+/// tile may change too. The sum must be symmetric. Each cache line of the upper half is read and
+/// written once: for few terms the sweep runs at the speed of memory. Fixed order of summation.
+/// Throws std::logic_error on more than kSweepTermsMax terms.
+void sweep_upper(double* matrix, std::size_t stride, std::size_t n,
+                 std::span<const SweepTerm> terms);
+
+}  // namespace roomwise::ekf

@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+
+namespace roomwise::ekf {
+
+/// Tuning of the filter; services/ekf_svc/params.toml may override any field.
+struct EkfParams {
+  /// "invariant": right-invariant EKF. "plain": the textbook EKF, for comparison and teaching.
+  std::string filter = "invariant";
+  int landmark_budget = 2000;  ///< most landmarks in the map; memory for them is taken at start
+
+  double odometry_noise_ratio = 1.0;    ///< factor on the covariance ODOMETRY carries
+  double gap_distance_sigma_mps = 0.1;  ///< unseen travel per second without odometry
+  double gap_turn_sigma_radps = 0.2;    ///< unseen turn per second without odometry
+
+  double range_bias_m = 0.015;   ///< repeats from frame to frame; added to every range noise
+  double lateral_bias_m = 0.01;  ///< the same across the line of sight
+
+  double latency_max_s = 0.5;  ///< LANDMARKS this much older than ODOMETRY are still used in place
+
+  /// Landmarks already mapped are measured again only after this much travel, turn or time...
+  double update_travel_m = 0.02;
+  double update_turn_rad = 0.0175;
+  double update_interval_s = 0.5;
+  double parked_after_s = 1.0;  ///< ... and after this long without motion not at all
+
+  template <class Field>
+  void visit_fields(Field&& field) {
+    field("filter", filter, {"invariant", "plain"});
+    field("landmark_budget", landmark_budget, 1, 8000);
+    field("odometry_noise_ratio", odometry_noise_ratio, 1e-3, 1e3);
+    field("gap_distance_sigma_mps", gap_distance_sigma_mps, 0.0, 10.0);
+    field("gap_turn_sigma_radps", gap_turn_sigma_radps, 0.0, 10.0);
+    field("range_bias_m", range_bias_m, 0.0, 1.0);
+    field("lateral_bias_m", lateral_bias_m, 0.0, 1.0);
+    field("latency_max_s", latency_max_s, 0.0, 5.0);
+    field("update_travel_m", update_travel_m, 0.0, 1.0);
+    field("update_turn_rad", update_turn_rad, 0.0, 1.0);
+    field("update_interval_s", update_interval_s, 0.0, 10.0);
+    field("parked_after_s", parked_after_s, 0.0, 1e9);
+  }
+};
+
+}  // namespace roomwise::ekf

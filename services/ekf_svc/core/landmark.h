@@ -1,0 +1,23 @@
+#pragma once
+#include <cstdint>
+
+namespace roomwise::ekf {
+
+/// Colour of a landmark's near surface: ln(R/G), ln(B/G) and the variance of each.
+struct Signature {
+  double red_log = 0.0;
+  double blue_log = 0.0;
+  double variance_log2 = 1e6;  ///< very large: no colour
+};
+
+/// What the map knows of a landmark beside its place.
+struct Landmark {
+  std::int64_t map_id = 0;     ///< never used twice
+  std::int32_t identity = -1;  ///< >= 0: known for certain; -1: unknown
+  std::int8_t kind = 0;        ///< landmark_observation_t.KIND_*
+  Signature signature;
+  std::int32_t times_seen = 0;
+  std::int32_t refusals = 0;  ///< gate refusals in a row
+};
+
+}  // namespace roomwise::ekf

@@ -1,0 +1,66 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "services/ekf_svc/core/association.h"
+#include "services/ekf_svc/core/ekf_params.h"
+#include "services/ekf_svc/core/gate_monitor.h"
+#include "services/ekf_svc/core/sighting.h"
+#include "services/ekf_svc/core/slam_filter.h"
+
+namespace roomwise::ekf {
+
+/// What one frame did.
+struct FrameResult {
+  int seen = 0;  ///< sightings offered
+  int matched = 0;
+  int added = 0;
+  int rejected = 0;         ///< unusable, ambiguous or refused by a gate
+  bool pose_widened = false;  ///< the gate was locking the filter out
+};
+
+/// Simultaneous localisation and mapping, frame by frame: decides which landmark each sighting is
+/// of, corrects the filter by all of them at once, then adds what is new.
+///
+/// Known identity: the pair must pass the 99 % gate; see GateMonitor for what happens when it does
+/// not. Unknown identity: two gates (Bailey et al., IROS 2006). The nearest landmark is matched
+/// below the 99 % quantile; a landmark is begun only if the nearest is beyond d^2 = 25; between the
+/// two a sighting is ignored.
+class Slam {
+ public:
+  explicit Slam(const EkfParams& params);
+
+  /// Moves the robot. O(landmarks).
+  void predict(const MotionIncrement& motion) { filter_.predict(motion); }
+
+  /// Uses a frame taken at the present pose. `may_update` false: landmarks already mapped are not
+  /// measured again, new ones are added. `verdicts` (as long as `sightings`) says what became of
+  /// each.
+  FrameResult process(std::span<const Sighting> sightings, bool may_update,
+                      std::span<Verdict> verdicts);
+
+  const SlamFilter& filter() const { return filter_; }
+
+ private:
+  void judge_all(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  Verdict judge(const Sighting& sighting, Candidate& candidate) const;
+  void keep_best_pairs(std::span<Verdict> verdicts);
+  bool learn_from_refusals(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  void widen_pose();
+  void update(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  void update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  void add_new(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  Verdict add(const Sighting& sighting);
+  BodyObservation body(const Sighting& sighting) const;
+
+  EkfParams params_;
+  SlamFilter filter_;
+  GateMonitor gate_monitor_;
+  double widening_ratio_ = 1.0;           // doubles while widening does not help
+  std::vector<Candidate> candidates_;     // per sighting of the frame
+  std::vector<std::size_t> claimed_by_;   // per landmark: sighting that has it in this frame
+  std::vector<std::size_t> batch_;        // sightings of one update
+  std::vector<Residual> residuals_;       // and what they say
+};
+
+}  // namespace roomwise::ekf

@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "common/channels.h"
+#include "services/ekf_svc/core/estimator.h"
+
+namespace roomwise {
+
+/// ODOMETRY as the core takes it.
+ekf::OdometrySample to_sample(const odometry_t& message);
+
+/// One element of LANDMARKS as the core takes it.
+ekf::Sighting to_sighting(const landmark_observation_t& message);
+
+/// POSE for the newest odometry, after `last_frame`.
+pose_t to_pose_message(const ekf::Estimator& estimator, const ekf::FrameResult& last_frame);
+
+/// LANDMARK_MAP as of the newest odometry, in order of map_id.
+landmark_map_t to_map_message(const ekf::Estimator& estimator);
+
+}  // namespace roomwise

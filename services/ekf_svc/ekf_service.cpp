@@ -1,0 +1,107 @@
+#include "services/ekf_svc/ekf_service.h"
+
+#include <algorithm>
+
+#include "services/ekf_svc/ekf_messages.h"
+
+namespace roomwise {
+namespace {
+
+constexpr std::size_t kFramesWaitingMax = 64;  // two seconds of a camera
+constexpr std::int64_t kMapPeriod_us = 1'000'000;
+
+constexpr const char* reason(ekf::OdometryVerdict verdict) {
+  switch (verdict) {
+    case ekf::OdometryVerdict::kUsed: return "odometry_used";
+    case ekf::OdometryVerdict::kFirst: return "odometry_first";
+    case ekf::OdometryVerdict::kGap: return "odometry_gap";
+    case ekf::OdometryVerdict::kRestarted: return "odometry_clock_restarted";
+    case ekf::OdometryVerdict::kTimeInvalid: return "odometry_time_invalid";
+    case ekf::OdometryVerdict::kOutOfOrder: return "odometry_out_of_order";
+    case ekf::OdometryVerdict::kNotFinite: return "odometry_not_finite";
+    case ekf::OdometryVerdict::kTooFast: return "odometry_too_fast";
+    case ekf::OdometryVerdict::kCovarianceInvalid: return "odometry_covariance_invalid";
+  }
+  return "odometry_unknown";
+}
+
+constexpr const char* reason(ekf::FrameTiming timing) {
+  switch (timing) {
+    case ekf::FrameTiming::kReady: return "frame_ready";
+    case ekf::FrameTiming::kWaits: return "frame_waits";
+    case ekf::FrameTiming::kNoOdometry: return "frame_before_odometry";
+    case ekf::FrameTiming::kDuplicate: return "frame_duplicate";
+    case ekf::FrameTiming::kLate: return "frame_late";
+    case ekf::FrameTiming::kAheadOfBelief: return "frame_ahead_of_odometry";
+  }
+  return "frame_unknown";
+}
+
+}  // namespace
+
+EkfService::EkfService(Bus& bus, const Params& params) : bus_(bus), estimator_(params) {
+  bus_.subscribe(channels::kOdometry, [this](const odometry_t& m) { on_odometry(m); });
+  bus_.subscribe(channels::kLandmarks, [this](const landmark_list_t& m) { on_landmarks(m); });
+}
+
+void EkfService::on_odometry(const odometry_t& message) {
+  const ekf::OdometryVerdict verdict = estimator_.add_odometry(to_sample(message));
+  if (verdict != ekf::OdometryVerdict::kUsed) bus_.count(reason(verdict));
+  if (!ekf::is_used(verdict)) return;
+  use_waiting_frames();
+  pose_t pose = to_pose_message(estimator_, last_frame_);
+  bus_.publish(channels::kPose, pose);
+  publish_map_if_due();
+}
+
+void EkfService::on_landmarks(const landmark_list_t& message) {
+  WaitingFrame frame{time_from_utime(message.utime), {}};
+  const ekf::FrameTiming timing = estimator_.timing(frame.time);
+  if (timing != ekf::FrameTiming::kReady && timing != ekf::FrameTiming::kWaits) {
+    return bus_.count(reason(timing));
+  }
+  if (waiting_.size() == kFramesWaitingMax) return bus_.count("frame_queue_full");
+  frame.sightings.reserve(message.landmarks.size());
+  std::transform(message.landmarks.begin(), message.landmarks.end(),
+                 std::back_inserter(frame.sightings), to_sighting);
+  const auto later = std::upper_bound(
+      waiting_.begin(), waiting_.end(), frame.time,
+      [](Time time, const WaitingFrame& waiting) { return time < waiting.time; });
+  waiting_.insert(later, std::move(frame));
+  use_waiting_frames();
+  publish_map_if_due();
+}
+
+void EkfService::use_waiting_frames() {
+  while (!waiting_.empty()) {
+    const ekf::FrameTiming timing = estimator_.timing(waiting_.front().time);
+    if (timing == ekf::FrameTiming::kWaits) return;
+    if (timing == ekf::FrameTiming::kReady) {
+      use(waiting_.front());
+    } else {
+      bus_.count(reason(timing));
+    }
+    waiting_.pop_front();
+  }
+}
+
+void EkfService::use(const WaitingFrame& frame) {
+  verdicts_.resize(frame.sightings.size());
+  last_frame_ = estimator_.process(frame.time, frame.sightings, verdicts_);
+  if (last_frame_.pose_widened) bus_.count("pose_widened");
+  for (const ekf::Verdict verdict : verdicts_) {
+    if (verdict != ekf::Verdict::kMatched) bus_.count(ekf::name_of(verdict));
+  }
+}
+
+void EkfService::publish_map_if_due() {
+  const std::int64_t second = utime_of(estimator_.estimate().time) / kMapPeriod_us;
+  const std::size_t count = estimator_.filter().landmark_count();
+  if (second == map_second_ && count == map_count_) return;
+  map_second_ = second;
+  map_count_ = count;
+  landmark_map_t map = to_map_message(estimator_);
+  bus_.publish(channels::kLandmarkMap, map);
+}
+
+}  // namespace roomwise
