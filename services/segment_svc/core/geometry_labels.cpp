@@ -1,0 +1,67 @@
+#include "services/segment_svc/core/geometry_labels.h"
+
+#include <cmath>
+
+#include "common/multiversion.h"
+#include "services/segment_svc/core/labels.h"
+
+namespace roomwise::segment {
+namespace {
+
+/// What a row's loop needs; floats, so that it runs many pixels at a time.
+struct HeightRule {
+  float unit_m;
+  float range_max_m;
+  float quantum_per_m;
+  float camera_height_m;
+  float floor_tolerance_m;
+  float drop_off_depth_m;
+};
+
+/// A pixel's height is depth * (slope of its column + slope of its row) + camera height.
+ROOMWISE_MULTIVERSION
+void label_row(const std::uint16_t* steps, const float* slope_of_column, float slope_of_row,
+               const HeightRule& rule, std::size_t width, std::uint8_t* labels) {
+  for (std::size_t u = 0; u < width; ++u) {
+    const float z_m = rule.unit_m * static_cast<float>(steps[u]);
+    const float slope = slope_of_column[u] + slope_of_row;
+    const float height_m = z_m * slope + rule.camera_height_m;
+    const float sigma_m = z_m * z_m * rule.quantum_per_m * std::abs(slope);
+    const bool is_known = z_m > 0.0F && z_m <= rule.range_max_m;
+    const bool is_floor = std::abs(height_m) <= rule.floor_tolerance_m + sigma_m;
+    const bool is_drop = height_m < -(rule.drop_off_depth_m + 3.0F * sigma_m);
+    const int standing = height_m > 0.0F ? kObstacle : kUnknown;
+    const int known = is_floor ? kAccessible : is_drop ? kDropOff : standing;
+    labels[u] = static_cast<std::uint8_t>(is_known ? known : kUnknown);
+  }
+}
+
+}  // namespace
+
+void GeometryLabels::label(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
+                           std::vector<std::uint8_t>& labels) {
+  label_heights(frame, view, floor, labels);
+  walls_.mark(frame, view, floor, labels);
+}
+
+void GeometryLabels::label_heights(const RgbdFrame& frame, const CameraView& view,
+                                   const FloorPlane& floor, std::vector<std::uint8_t>& labels) {
+  const auto width = static_cast<std::size_t>(view.width_px());
+  const auto height = static_cast<std::size_t>(view.height_px());
+  labels.resize(width * height);
+  slope_of_column_.resize(width);
+  const Eigen::Vector3f n = floor.normal.cast<float>();
+  for (std::size_t u = 0; u < width; ++u) slope_of_column_[u] = n.x() * view.ray_x()[u];
+  const HeightRule rule{.unit_m = static_cast<float>(view.unit_m()),
+                        .range_max_m = static_cast<float>(params_.range_max_m),
+                        .quantum_per_m = view.quantum_per_m(),
+                        .camera_height_m = static_cast<float>(floor.height_m),
+                        .floor_tolerance_m = static_cast<float>(params_.floor_tolerance_m),
+                        .drop_off_depth_m = static_cast<float>(params_.drop_off_depth_m)};
+  for (std::size_t v = 0; v < height; ++v) {
+    label_row(frame.depth.steps.data() + v * width, slope_of_column_.data(),
+              n.y() * view.ray_y()[v] + n.z(), rule, width, labels.data() + v * width);
+  }
+}
+
+}  // namespace roomwise::segment

@@ -1,0 +1,146 @@
+#include "services/segment_svc/core/wall_cells.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "services/segment_svc/core/labels.h"
+
+namespace roomwise::segment {
+namespace {
+
+constexpr int kCell_px = 16;
+constexpr int kStride_px = 2;   // every second pixel each way says enough
+constexpr int kPixelsMin = 24;  // of 64
+constexpr float kResidual_quanta = 1.5F;
+constexpr float kUpright = 0.2F;      // |cosine| between a wall's normal and up
+constexpr float kSameNormal = 0.95F;  // cosine: 18 degrees
+constexpr float kWidth_m = 0.5F;
+constexpr float kHeight_m = 0.6F;
+
+}  // namespace
+
+void WallCells::mark(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
+                     std::vector<std::uint8_t>& labels) {
+  quantum_per_m_ = view.quantum_per_m();
+  columns_ = view.width_px() / kCell_px;
+  rows_ = view.height_px() / kCell_px;
+  cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      cells_[static_cast<std::size_t>(row * columns_ + column)] =
+          fit(frame, view, floor, labels, column, row);
+    }
+  }
+  join(floor);
+  relabel(view, labels);
+}
+
+WallCells::Cell WallCells::fit(const RgbdFrame& frame, const CameraView& view,
+                               const FloorPlane& floor, const std::vector<std::uint8_t>& labels,
+                               int column, int row) const {
+  Eigen::Matrix3f normal_matrix = Eigen::Matrix3f::Zero();
+  Eigen::Vector3f right_side = Eigen::Vector3f::Zero();
+  float sum_squared = 0.0F;
+  int count = 0;
+  const float x0 = view.ray_x()[static_cast<std::size_t>(column * kCell_px + kCell_px / 2)];
+  const float y0 = view.ray_y()[static_cast<std::size_t>(row * kCell_px + kCell_px / 2)];
+  const auto unit_m = static_cast<float>(view.unit_m());
+  const auto width = static_cast<std::size_t>(view.width_px());
+  for (int v = row * kCell_px; v < (row + 1) * kCell_px; v += kStride_px) {
+    for (int u = column * kCell_px; u < (column + 1) * kCell_px; u += kStride_px) {
+      const std::size_t pixel = static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u);
+      if (labels[pixel] != kObstacle) continue;
+      const float inverse_depth = 1.0F / (unit_m * static_cast<float>(frame.depth.steps[pixel]));
+      const Eigen::Vector3f a(view.ray_x()[static_cast<std::size_t>(u)] - x0,
+                              view.ray_y()[static_cast<std::size_t>(v)] - y0, 1.0F);
+      normal_matrix.noalias() += a * a.transpose();
+      right_side += inverse_depth * a;
+      sum_squared += inverse_depth * inverse_depth;
+      ++count;
+    }
+  }
+  Cell cell;
+  if (count < kPixelsMin) return cell;
+  const Eigen::Vector3f m0 = normal_matrix.ldlt().solve(right_side);
+  const float mean_squared = (sum_squared - m0.dot(right_side)) / static_cast<float>(count);
+  const float residual_quanta = std::sqrt(std::max(0.0F, mean_squared)) / quantum_per_m_;
+  cell.m = Eigen::Vector3f(m0.x(), m0.y(), m0.z() - m0.x() * x0 - m0.y() * y0);
+  const float rise = cell.m.normalized().dot(floor.normal.cast<float>());
+  cell.is_upright =
+      residual_quanta < kResidual_quanta && std::abs(rise) < kUpright && m0.z() > 0.0F;
+  cell.p_camera_m = Eigen::Vector3f(x0, y0, 1.0F) / std::max(m0.z(), 1e-3F);
+  return cell;
+}
+
+void WallCells::join(const FloorPlane& floor) {
+  patch_is_wall_.clear();
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (!cells_[i].is_upright || cells_[i].patch >= 0) continue;
+    grow(i, static_cast<int>(patch_is_wall_.size()));
+    patch_is_wall_.push_back(is_wall(floor) ? 1 : 0);
+  }
+}
+
+void WallCells::grow(std::size_t start, int patch) {
+  members_.assign(1, start);
+  cells_[start].patch = patch;
+  for (std::size_t next = 0; next < members_.size(); ++next) {
+    const auto i = static_cast<int>(members_[next]);
+    const int column = i % columns_;
+    const auto visit = [&](bool exists, int j) {
+      if (!exists) return;
+      Cell& neighbour = cells_[static_cast<std::size_t>(j)];
+      if (!neighbour.is_upright || neighbour.patch >= 0) return;
+      if (!are_one_plane(cells_[static_cast<std::size_t>(i)], neighbour)) return;
+      neighbour.patch = patch;
+      members_.push_back(static_cast<std::size_t>(j));
+    };
+    visit(column > 0, i - 1);
+    visit(column + 1 < columns_, i + 1);
+    visit(i >= columns_, i - columns_);
+    visit(i + columns_ < columns_ * rows_, i + columns_);
+  }
+}
+
+bool WallCells::are_one_plane(const Cell& a, const Cell& b) const {
+  const float z_m = b.p_camera_m.z();
+  const float tolerance_m = 0.05F + 2.0F * z_m * z_m * quantum_per_m_;
+  const float offset_m = std::abs(a.m.dot(b.p_camera_m) - 1.0F) / a.m.norm();
+  return a.m.normalized().dot(b.m.normalized()) > kSameNormal && offset_m < tolerance_m;
+}
+
+/// Whether the members reach far enough, up and along the floor.
+bool WallCells::is_wall(const FloorPlane& floor) const {
+  const Eigen::Vector3f up = floor.normal.cast<float>();
+  const Eigen::Vector3f along = up.cross(cells_[members_.front()].m).normalized();
+  float low = 1e9F;
+  float high = -1e9F;
+  float first = 1e9F;
+  float last = -1e9F;
+  for (const std::size_t member : members_) {
+    const Eigen::Vector3f& p = cells_[member].p_camera_m;
+    low = std::min(low, up.dot(p));
+    high = std::max(high, up.dot(p));
+    first = std::min(first, along.dot(p));
+    last = std::max(last, along.dot(p));
+  }
+  return high - low > kHeight_m && last - first > kWidth_m;
+}
+
+void WallCells::relabel(const CameraView& view, std::vector<std::uint8_t>& labels) const {
+  const auto width = static_cast<std::size_t>(view.width_px());
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const int patch = cells_[i].patch;
+    if (patch < 0 || patch_is_wall_[static_cast<std::size_t>(patch)] == 0) continue;
+    const auto columns = static_cast<std::size_t>(columns_);
+    std::uint8_t* corner =
+        labels.data() + (i / columns) * kCell_px * width + (i % columns) * kCell_px;
+    for (std::size_t v = 0; v < kCell_px; ++v) {
+      std::replace(corner + v * width, corner + v * width + kCell_px, std::uint8_t{kObstacle},
+                   std::uint8_t{kWall});
+    }
+  }
+}
+
+}  // namespace roomwise::segment

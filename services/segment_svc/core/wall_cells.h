@@ -1,0 +1,48 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "common/image/rgbd_frame.h"
+#include "services/segment_svc/core/camera_view.h"
+#include "services/segment_svc/core/floor_plane.h"
+
+namespace roomwise::segment {
+
+/// Finds walls among the pixels labelled obstacle: upright planes more than 0.5 m wide and 0.6 m
+/// high.
+///
+/// The image is cut into cells of 16 x 16 pixels. On a plane the inverse depth is linear in pixel
+/// coordinates, 1/z = m . (x, y, 1) with m the plane's normal over its distance; each cell gets
+/// that fit by least squares over its obstacle pixels. Neighbouring flat, upright cells of one
+/// plane are joined, and what is large enough is a wall.
+class WallCells {
+ public:
+  /// Turns obstacle labels of wall cells into wall labels.
+  void mark(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
+            std::vector<std::uint8_t>& labels);
+
+ private:
+  struct Cell {
+    bool is_upright = false;
+    int patch = -1;
+    Eigen::Vector3f m;           ///< plane: m . p = 1
+    Eigen::Vector3f p_camera_m;  ///< of its middle
+  };
+  Cell fit(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
+           const std::vector<std::uint8_t>& labels, int column, int row) const;
+  void join(const FloorPlane& floor);
+  void grow(std::size_t start, int patch);
+  bool is_wall(const FloorPlane& floor) const;
+  bool are_one_plane(const Cell& a, const Cell& b) const;
+  void relabel(const CameraView& view, std::vector<std::uint8_t>& labels) const;
+
+  float quantum_per_m_ = 0.0F;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<std::size_t> members_;  // of the patch being grown
+  std::vector<char> patch_is_wall_;
+};
+
+}  // namespace roomwise::segment
