@@ -14,7 +14,7 @@
 #include "logs/tools/frame_files.h"
 #include "logs/tools/option_checks.h"
 #include "logs/tools/progress.h"
-#include "logs/tools/rgbd_import.h"
+#include "logs/tools/rgbd_log.h"
 #include "logs/tools/subcommands.h"
 #include "logs/tools/text_table.h"
 #include "logs/tools/whole_file.h"
@@ -167,19 +167,15 @@ void import_7scenes(const SevenScenesImport& import, std::ostream& notes) {
 
   ReplacedFile file(import.out);
   LogWriter log(file.temporary());
-  FrameEncoder encoder;
+  RgbdLog rgbd(log);
   Progress progress("import", depth_paths.size());
   std::uint64_t done = 0;
-  std::int64_t truth_seq = 0;
   for (const auto& [number, depth_path] : depth_paths) {
     ImportedFrame frame = read_frame(number, depth_path);
     frame.camera = camera;
     frame.T_robot_camera = mounting.T_robot_camera(number);
-    const Time time = time_from_utime(frame.utime);
-    log.write(channels::kKinectFrame, time, frame_message(frame, encoder));
-    if (const auto* pose = mounting.T_world_camera(number)) {
-      log.write(channels::kTruth, time, truth_message(frame.utime, ++truth_seq, *pose));
-    }
+    rgbd.write_frame(frame, depth_path);
+    if (const auto* pose = mounting.T_world_camera(number)) rgbd.write_truth(frame.utime, *pose);
     progress.show(++done);
   }
   log.close();

@@ -13,7 +13,7 @@
 #include "logs/tools/camera_pose.h"
 #include "logs/tools/option_checks.h"
 #include "logs/tools/progress.h"
-#include "logs/tools/rgbd_import.h"
+#include "logs/tools/rgbd_log.h"
 #include "logs/tools/subcommands.h"
 #include "logs/tools/text_table.h"
 #include "logs/tools/whole_file.h"
@@ -104,18 +104,16 @@ std::optional<Eigen::Isometry3d> mounting_at(const TimedPoses& truth, std::int64
 /// Writes TRUTH up to a given time, message by message.
 class TruthWriter {
  public:
-  TruthWriter(LogWriter& log, const TimedPoses& truth) : log_(log), truth_(truth) {}
+  TruthWriter(RgbdLog& log, const TimedPoses& truth) : log_(log), truth_(truth) {}
 
   void write_before(std::int64_t utime) {
     for (; next_ < truth_.utimes.size() && truth_.utimes[next_] < utime; ++next_) {
-      const std::int64_t at = truth_.utimes[next_];
-      log_.write(channels::kTruth, time_from_utime(at),
-                 truth_message(at, static_cast<std::int64_t>(next_) + 1, truth_.values[next_]));
+      log_.write_truth(truth_.utimes[next_], truth_.values[next_]);
     }
   }
 
  private:
-  LogWriter& log_;
+  RgbdLog& log_;
   const TimedPoses& truth_;
   std::size_t next_ = 0;
 };
@@ -141,8 +139,8 @@ void import_tum(const TumImport& import, std::ostream& notes) {
 
   ReplacedFile file(import.out);
   LogWriter log(file.temporary());
-  FrameEncoder encoder;
-  TruthWriter truth_writer(log, truth);
+  RgbdLog rgbd(log);
+  TruthWriter truth_writer(rgbd, truth);
   Progress progress("import", matches.size());
   ImportedFrame frame;
   frame.camera = camera;
@@ -151,12 +149,12 @@ void import_tum(const TumImport& import, std::ostream& notes) {
     ++frame.seq;
     frame.utime = depths.utimes[match.first];
     frame.device_time_us = frame.utime;
-    frame.depth =
-        read_depth_png(import.folder / depths.values[match.first], 1.0 / import.depth_scale);
+    const auto depth_path = import.folder / depths.values[match.first];
+    frame.depth = read_depth_png(depth_path, 1.0 / import.depth_scale);
     frame.color = read_color_as_jpeg(import.folder / colors.values[match.second]);
     if (const auto mounting = mounting_at(truth, frame.utime)) frame.T_robot_camera = *mounting;
     truth_writer.write_before(frame.utime);
-    log.write(channels::kKinectFrame, time_from_utime(frame.utime), frame_message(frame, encoder));
+    rgbd.write_frame(frame, depth_path);
     progress.show(static_cast<std::uint64_t>(frame.seq));
   }
   truth_writer.write_before(std::numeric_limits<std::int64_t>::max());

@@ -17,6 +17,9 @@ void add_subcommands(CLI::App& rwlog) {
   CLI::App& convert = *rwlog.add_subcommand("export", "Makes text or a picture of a log.");
   convert.require_subcommand(1);
   add_export_trajectory(convert);
+  add_export_map_png(convert);
+  add_export_landmarks_png(convert);
+  add_export_labels_png(convert);
   add_score(rwlog);
 }
 

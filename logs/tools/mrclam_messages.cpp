@@ -71,13 +71,14 @@ std::vector<odometry_t> odometry_messages(const MrclamImport& import,
   for (std::size_t i = 0; i + 1 < velocities.size(); ++i) {
     const MrclamVelocity& held = velocities[i];
     const std::int64_t interval_us = velocities[i + 1].utime - held.utime;
+    if (interval_us == 0) continue;
     const double interval_s = static_cast<double>(interval_us) * 1e-6;
     const double distance_m = held.speed_mps * interval_s;
     const double turn_rad = held.turn_rate_radps * interval_s;
     T_odom_robot = drive_arc(T_odom_robot, distance_m, turn_rad);
     odometry_t message = odometry_message(import, distance_m, turn_rad);
     message.utime = velocities[i + 1].utime;
-    message.seq = static_cast<std::int64_t>(i) + 1;
+    message.seq = static_cast<std::int64_t>(messages.size()) + 1;
     message.interval_us = interval_us;
     message.x_m = T_odom_robot.x_m;
     message.y_m = T_odom_robot.y_m;

@@ -9,7 +9,7 @@
 
 namespace roomwise {
 
-/// A message for each interval between two velocity records.
+/// A message for each interval, if not of length 0, between two velocity records.
 std::vector<odometry_t> odometry_messages(const MrclamImport& import,
                                           const std::vector<MrclamVelocity>& velocities);
 
