@@ -1,0 +1,89 @@
+#include "logs/tools/recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "common/bus/bus.h"
+
+namespace roomwise {
+namespace {
+
+constexpr std::int64_t kLatest_utime = std::int64_t{1} << 60;  // differences cannot overflow
+constexpr double kFarthest_m = 1e6;
+
+bool is_time(std::int64_t utime) { return utime >= 0 && utime <= kLatest_utime; }
+
+bool are_coordinates(std::initializer_list<double> values) {
+  return std::ranges::all_of(values, [](double v) { return std::abs(v) <= kFarthest_m; });
+}
+
+void add_pose(Bus& bus, std::int64_t utime, const Pose2& pose, Trajectory& trajectory) {
+  if (!is_time(utime) || !are_coordinates({pose.x_m, pose.y_m, pose.heading_rad})) {
+    bus.count("pose_not_usable");
+    return;
+  }
+  trajectory.push_back({utime, {pose.x_m, pose.y_m, wrap_angle(pose.heading_rad)}});
+}
+
+void add_true_landmarks(Bus& bus, const truth_t& truth, std::vector<MapPoint>& landmarks) {
+  if (truth.true_landmarks.empty()) return;
+  landmarks.clear();
+  for (const true_landmark_t& landmark : truth.true_landmarks) {
+    if (are_coordinates({landmark.true_x_m, landmark.true_y_m})) {
+      landmarks.push_back({landmark.identity, {landmark.true_x_m, landmark.true_y_m}});
+    } else {
+      bus.count("true_landmark_not_usable");
+    }
+  }
+}
+
+void set_map(Bus& bus, const landmark_map_t& message, Recording& recording) {
+  recording.map = message;
+  auto& landmarks = recording.map->map_landmarks;
+  const auto not_usable = std::erase_if(landmarks, [](const map_landmark_t& landmark) {
+    return !are_coordinates({landmark.map_x_m, landmark.map_y_m, landmark.covariance_x_x_m2,
+                             landmark.covariance_x_y_m2, landmark.covariance_y_y_m2});
+  });
+  recording.map->map_count = static_cast<std::int32_t>(landmarks.size());
+  if (not_usable > 0) bus.count("map_landmark_not_usable", static_cast<std::int64_t>(not_usable));
+}
+
+}  // namespace
+
+std::vector<MapPoint> Recording::map_points() const {
+  std::vector<MapPoint> points;
+  if (!map) return points;
+  for (const map_landmark_t& landmark : map->map_landmarks) {
+    points.push_back({landmark.identity, {landmark.map_x_m, landmark.map_y_m}});
+  }
+  return points;
+}
+
+void gather(Bus& bus, Recording& recording) {
+  bus.subscribe(channels::kPose, [&](const pose_t& m) {
+    add_pose(bus, m.utime, {m.x_m, m.y_m, m.heading_rad}, recording.poses);
+  });
+  bus.subscribe(channels::kOdometry, [&](const odometry_t& m) {
+    add_pose(bus, m.utime, {m.x_m, m.y_m, m.heading_rad}, recording.odometry);
+  });
+  bus.subscribe(channels::kTruth, [&](const truth_t& m) {
+    add_pose(bus, m.utime, {m.true_x_m, m.true_y_m, m.true_heading_rad}, recording.truth);
+    add_true_landmarks(bus, m, recording.true_landmarks);
+  });
+  bus.subscribe(channels::kLandmarkMap,
+                [&](const landmark_map_t& m) { set_map(bus, m, recording); });
+  bus.subscribe(channels::kLandmarks, [&recording](const landmark_list_t& m) {
+    if (m.frame_seq == 0) return;
+    ++recording.landmark_frames;
+    recording.landmarks_in_frames += m.count;
+  });
+}
+
+void sort_by_time(Recording& recording) {
+  for (Trajectory* trajectory : {&recording.poses, &recording.odometry, &recording.truth}) {
+    std::ranges::stable_sort(*trajectory, {}, &TimedPose2::utime);
+  }
+}
+
+}  // namespace roomwise

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+
+#include "common/bus/log_file.h"
+#include "common/frames/frame_decoder.h"
+#include "common/frames/frame_encoder.h"
+#include "common/image/rgbd_frame.h"
+#include "logs/tools/image_file.h"
+
+namespace roomwise {
+
+/// One instant of a recorded depth camera, as import finds it: depth registered to colour, one
+/// pinhole camera for both.
+struct ImportedFrame {
+  std::int64_t utime = 0;
+  std::int64_t seq = 0;
+  std::int64_t device_time_us = 0;
+  DepthImage depth;
+  JpegImage color;
+  PinholeCamera camera;
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+};
+
+/// Writes KINECT_FRAME and TRUTH into a log.
+class RgbdLog {
+ public:
+  explicit RgbdLog(LogWriter& log) : log_(log), check_(ColorUse::kDecode) {}
+
+  /// Throws std::runtime_error naming `source` if no service could decode the frame.
+  void write_frame(const ImportedFrame& frame, const std::filesystem::path& source);
+
+  /// The camera's pose, and that of the robot below it. The world's z points up.
+  void write_truth(std::int64_t utime, const Eigen::Isometry3d& T_world_camera);
+
+ private:
+  LogWriter& log_;
+  FrameEncoder encoder_;
+  FrameDecoder check_;
+  RgbdFrame decoded_;
+  std::int64_t truth_seq_ = 0;
+};
+
+}  // namespace roomwise

@@ -1,0 +1,137 @@
+#include "logs/tools/score.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "logs/tools/floor_masks.h"
+#include "logs/tools/log_replay.h"
+#include "logs/tools/score_map.h"
+#include "logs/tools/score_trajectory.h"
+#include "logs/tools/subcommands.h"
+
+namespace roomwise {
+namespace {
+
+void add_trajectory(const std::string& prefix, const std::optional<TrajectoryScore>& score,
+                    Scores& scores) {
+  if (!score) return;
+  scores.emplace_back(prefix + "ate_raw_m", score->ate_raw_m);
+  scores.emplace_back(prefix + "ate_aligned_m", score->ate_aligned_m);
+  scores.emplace_back(prefix + "heading_rmse_rad", score->heading_rmse_rad);
+  scores.emplace_back(prefix + "poses", static_cast<double>(score->poses));
+}
+
+void add_map(const Recording& recording, const std::optional<TrajectoryScore>& trajectory,
+             Scores& scores) {
+  if (!recording.map) return;
+  const std::vector<MapPoint> points = recording.map_points();
+  if (trajectory) {
+    const MatchedMap matched =
+        match_map(points, recording.true_landmarks, trajectory->T_world_map_aligned);
+    if (const auto score = score_map(matched, trajectory->T_world_map_raw)) {
+      scores.emplace_back("map_raw_m", score->map_raw_m);
+      scores.emplace_back("map_aligned_m", score->map_aligned_m);
+      scores.emplace_back("map_matched", static_cast<double>(score->matched));
+    }
+  }
+  scores.emplace_back("landmarks", static_cast<double>(points.size()));
+}
+
+/// Six decimals, fewer where the rest are 0.
+std::string value_text(double value) {
+  std::string text = fmt::format("{:.6f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Scores score_recording(const Recording& recording) {
+  Scores scores;
+  const auto trajectory = score_trajectory(recording.poses, recording.truth);
+  add_trajectory("", trajectory, scores);
+  add_trajectory("odometry_", score_trajectory(recording.odometry, recording.truth), scores);
+  add_map(recording, trajectory, scores);
+  if (recording.landmark_frames > 0) {
+    scores.emplace_back("landmarks_per_frame", static_cast<double>(recording.landmarks_in_frames) /
+                                                   static_cast<double>(recording.landmark_frames));
+  }
+  return scores;
+}
+
+Scores score_floor(const std::vector<FloorCounts>& frames) {
+  if (frames.empty()) return {};
+  FloorCounts pooled;
+  double iou_sum = 0.0;
+  for (const FloorCounts& counts : frames) {
+    pooled += counts;
+    iou_sum += counts.iou_ratio();
+  }
+  return {{"floor_iou", pooled.iou_ratio()},
+          {"floor_precision", pooled.precision_ratio()},
+          {"floor_recall", pooled.recall_ratio()},
+          {"nonfloor_called_floor", pooled.nonfloor_called_floor_ratio()},
+          {"floor_iou_mean", iou_sum / static_cast<double>(frames.size())},
+          {"floor_frames", static_cast<double>(frames.size())}};
+}
+
+std::string scores_as_text(const Scores& scores) {
+  std::string text;
+  for (const auto& [name, value] : scores) text += fmt::format("{} {}\n", name, value_text(value));
+  return text;
+}
+
+std::string scores_as_json(const Scores& scores) {
+  std::string text;
+  for (const auto& [name, value] : scores) {
+    text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ", ", name, value_text(value));
+  }
+  return "{" + text + "}\n";
+}
+
+namespace {
+
+struct ScoreOptions {
+  std::filesystem::path log;
+  std::filesystem::path floor_masks;
+  bool json = false;
+};
+
+void run_score(const ScoreOptions& options) {
+  Recording recording;
+  std::optional<FloorMasks> masks;
+  if (!options.floor_masks.empty()) masks.emplace(options.floor_masks);
+  const LogReading reading = replay_log(options.log, [&](Bus& bus) {
+    gather(bus, recording);
+    if (masks) masks->gather(bus);
+  });
+  sort_by_time(recording);
+  Scores scores = score_recording(recording);
+  if (masks) std::ranges::copy(score_floor(masks->frames()), std::back_inserter(scores));
+  fmt::print("{}", options.json ? scores_as_json(scores) : scores_as_text(scores));
+  std::fflush(stdout);
+  reading.raise_complaints(options.log);
+  if (scores.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: nothing to score: needs POSE or ODOMETRY with TRUTH, LANDMARKS of frames, "
+                    "LANDMARK_MAP, or SEGMENTS with --floor-masks",
+                    options.log.string()));
+  }
+}
+
+}  // namespace
+
+void add_score(CLI::App& parent) {
+  CLI::App& command = *parent.add_subcommand(
+      "score", "Errors against TRUTH and masks of the floor: a line 'name value' each.");
+  const auto options = std::make_shared<ScoreOptions>();
+  command.add_option("LOG", options->log, "a log with inputs and outputs")->required();
+  command.add_option("--floor-masks", options->floor_masks, "folder of frame-N.floor.png");
+  command.add_flag("--json", options->json, "one JSON object instead");
+  command.callback([options] { run_score(*options); });
+}
+
+}  // namespace roomwise
