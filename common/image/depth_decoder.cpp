@@ -44,7 +44,7 @@ std::size_t u16_at(Bytes bytes, std::size_t at) {
 
 struct DepthDecoder::Memory {
   std::vector<std::uint16_t> palette;  ///< value of each index; palette[0] = 0
-  std::array<std::array<Share, kTokens>, kContexts> shares;
+  std::array<std::array<Share, 32>, kContexts> shares;
   std::array<std::array<std::uint8_t, rans::kTotal>, kContexts> token_at;
   std::array<Lane, kLanes> lanes;
   std::vector<std::uint16_t> above_classes;  ///< width x lanes
@@ -139,7 +139,8 @@ inline std::uint16_t DepthDecoder::Memory::decode_pixel(rans::Decoder& coder, st
     folded = static_cast<std::uint16_t>(1U << bits | coder.take_raw(bits));
   }
   hole = token == 0;
-  return token == 0 ? fill : static_cast<std::uint16_t>(guess + unzigzag(folded));
+  const auto change = static_cast<std::uint16_t>((guess + unzigzag(folded)) ^ fill);
+  return static_cast<std::uint16_t>(fill ^ (change & (hole - 1)));  // no branch
 }
 
 /// One row of each of the first kCount lanes, side by side.
@@ -148,30 +149,36 @@ void DepthDecoder::Memory::decode_rows(int width_px) {
   std::array<rans::Decoder, kCount> coders;
   std::array<std::uint16_t, kCount> left;
   std::array<std::uint16_t, kCount> hole_left;
+  std::array<std::uint16_t*, kCount> classes;
+  std::array<const std::uint16_t*, kCount> ups;
+  std::array<std::uint16_t*, kCount> fills;
+  std::array<std::uint16_t*, kCount> holes;
   for (std::size_t i = 0; i < kCount; ++i) {
     Lane& lane = lanes[i];
     lane.row.open(lane.above);
     coders[i] = lane.coder;
     left[i] = lane.row.fill()[-1];
     hole_left[i] = 0;
-    std::uint16_t* classes = above_classes.data() + i * static_cast<std::size_t>(width_px);
+    classes[i] = above_classes.data() + i * static_cast<std::size_t>(width_px);
     const std::uint16_t* up = lane.above.fill();
+    ups[i] = up;
+    fills[i] = lane.row.fill();
+    holes[i] = lane.row.hole();
     const std::uint16_t* up_hole = lane.above.hole();
     for (int u = 0; u < width_px; ++u) {
-      classes[u] = above_class(up[u - 1], up[u], up[u + 1], up_hole[u], up_hole[u + 1]);
+      classes[i][u] = above_class(up[u - 1], up[u], up[u + 1], up_hole[u], up_hole[u + 1]);
     }
   }
   for (int u = 0; u < width_px; ++u) {
+#pragma GCC unroll 4
     for (std::size_t i = 0; i < kCount; ++i) {
-      Lane& lane = lanes[i];
-      const std::uint16_t ul = lane.above.fill()[u - 1];
-      const std::uint16_t up = lane.above.fill()[u];
+      const std::uint16_t ul = ups[i][u - 1];
+      const std::uint16_t up = ups[i][u];
       const std::size_t context =
-          above_classes[i * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(u)] +
-          std::size_t{left_class(left[i], ul, hole_left[i])};
+          std::size_t{classes[i][u]} + left_class(left[i], ul, hole_left[i]);
       left[i] = decode_pixel(coders[i], context, predict(left[i], up, ul), left[i], hole_left[i]);
-      lane.row.fill()[u] = left[i];
-      lane.row.hole()[u] = hole_left[i];
+      fills[i][u] = left[i];
+      holes[i][u] = hole_left[i];
     }
   }
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -193,10 +200,8 @@ void DepthDecoder::Memory::decode_bands(int width_px, int height_px) {
     const Band rows = band(lane, height_px);
     return rows.end - rows.first;
   };
-  static_assert(kLanes == 4);
+  static_assert(kLanes == 2);
   int row = 0;
-  for (; row < rows_of(3); ++row) decode_rows<4>(width_px);
-  for (; row < rows_of(2); ++row) decode_rows<3>(width_px);
   for (; row < rows_of(1); ++row) decode_rows<2>(width_px);
   for (; row < rows_of(0); ++row) decode_rows<1>(width_px);
 }

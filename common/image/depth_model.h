@@ -9,8 +9,8 @@
 
 /// What PDZ16's encoder and decoder must agree on to the bit.
 ///
-/// An image is four bands of rows, each coded by a lane of its own so that a processor can work on
-/// all four at once. A band is coded row by row as if the row above it were all holes. Every pixel
+/// An image is two bands of rows, each coded by a lane of its own so that a processor can work on
+/// both at once. A band is coded row by row as if the row above it were all holes. Every pixel
 /// is one token under a context made of its neighbours
 ///
 ///     ul  u  ur
@@ -29,7 +29,7 @@ enum Layout : std::uint8_t {
   kPalette = 2,  ///< coded; indices into a palette
 };
 
-constexpr int kLanes = 4;
+constexpr int kLanes = 2;
 
 /// Rows [first, end) of a lane; empty for the last lanes of an image with few rows.
 struct Band {
@@ -74,10 +74,9 @@ class Row {
 /// Median edge detector: the median of l, u and l + u - ul (LOCO-I, Weinberger, Seroussi, Sapiro
 /// 2000, equation 1). Modulo 2^16, which the three cases never notice.
 constexpr std::uint16_t predict(std::uint16_t l, std::uint16_t u, std::uint16_t ul) {
-  const std::uint16_t low = std::min(l, u);
-  const std::uint16_t high = std::max(l, u);
-  const auto plane = static_cast<std::uint16_t>(l + u - ul);
-  return ul >= high ? low : ul <= low ? high : plane;
+  const int low = std::min(l, u);
+  const int high = l + u - low;
+  return static_cast<std::uint16_t>(std::max(low, std::min(high, l + u - ul)));
 }
 
 /// 0, 1, 2 for a < b, a = b, a > b.
@@ -95,7 +94,7 @@ constexpr std::uint16_t above_class(std::uint16_t ul, std::uint16_t u, std::uint
   return static_cast<std::uint16_t>(4 * (holes != 0 ? 8 + holes : slopes));
 }
 constexpr std::uint16_t left_class(std::uint16_t l, std::uint16_t ul, std::uint16_t hole_l) {
-  return hole_l != 0 ? 3 : order(l, ul);
+  return static_cast<std::uint16_t>(order(l, ul) | 3 * hole_l);
 }
 
 /// Residuals as 0, -1, 1, -2, 2, ... Modulo 2^16.
