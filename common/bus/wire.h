@@ -45,7 +45,8 @@ void encode(const Message& message, std::vector<std::uint8_t>& bytes) {
     throw std::logic_error(std::string("count differs from vector in ") + Message::getTypeName());
   }
   bytes.resize(static_cast<std::size_t>(message.getEncodedSize()));
-  if (message.encode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) {
+  const auto size = static_cast<int>(bytes.size());
+  if (message.encode(bytes.data(), 0, size) != size) {  // shorter: a NUL inside a string
     throw std::logic_error(std::string("cannot encode ") + Message::getTypeName());
   }
 }

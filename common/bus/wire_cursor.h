@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -37,12 +38,15 @@ class WireCursor {
     return skip(size);
   }
 
-  /// A string: int32 length with its terminating NUL, then the bytes.
+  /// A string: int32 length with its terminating NUL, then the bytes. No NUL before the last:
+  /// lcm-gen would encode the string only up to there, shorter than it says it will.
   bool skip_string() {
     std::int64_t length = 0;
     if (!read_count(4, length) || length < 1) return false;
     const auto size = static_cast<std::size_t>(length);
-    return size <= left_.size() && left_[size - 1] == 0 && skip(size);
+    if (size > left_.size()) return false;
+    const auto text = left_.first(size);
+    return std::find(text.begin(), text.end(), 0) == text.end() - 1 && skip(size);
   }
 
  private:

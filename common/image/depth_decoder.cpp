@@ -1,5 +1,8 @@
+#include <array>
+#include <bit>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "common/image/depth_codec.h"
 #include "common/image/depth_model.h"
@@ -11,17 +14,40 @@ namespace {
 using namespace pdz16;
 using Bytes = std::span<const std::uint8_t>;
 
-/// A token's share of a context's table.
-struct Share {
-  std::uint16_t frequency;
-  std::uint16_t start;
+static_assert(std::endian::native == std::endian::little, "stored values are copied as they lie");
+
+/// A token in a context's table, with all that decoding it takes.
+struct Token {
+  std::uint16_t frequency = 0;
+  std::uint16_t start = 0;
+  std::uint16_t residual = 0;
+  std::uint8_t raw_bits = 0;
+  std::uint8_t hole_class = 0;
 };
 
+struct Table {
+  std::array<Token, std::bit_ceil(kTokens)> tokens;
+  std::array<std::uint8_t, rans::kTotal> token_at;  ///< of each place
+};
+
+/// What a lane keeps between rows: fills with a margin left and right.
 struct Lane {
   rans::Decoder coder;
-  Row above;
-  Row row;
-  std::uint16_t* out = nullptr;  ///< the row's indices, 0 for holes
+  std::vector<std::uint16_t> above;
+  std::vector<std::uint16_t> row;
+  std::vector<std::uint16_t> above_classes;
+  std::uint16_t* out = nullptr;  ///< the next row's indices, 0 for holes
+};
+
+/// The same for the length of one row, small enough to be kept in registers.
+struct Cursor {
+  rans::Decoder coder;
+  const std::uint16_t* above_classes;
+  const std::uint16_t* above;
+  std::uint16_t* row;
+  std::uint16_t* out;
+  std::uint16_t left;
+  std::uint16_t hole_class;  ///< of the pixel to the left
 };
 
 std::optional<std::size_t> read_varint(Bytes& bytes) {
@@ -40,24 +66,68 @@ std::size_t u16_at(Bytes bytes, std::size_t at) {
   return static_cast<std::size_t>(bytes[at] | bytes[at + 1] << 8);
 }
 
+Token token_with(std::size_t number, std::size_t frequency, std::size_t start) {
+  const int raw = raw_bits(static_cast<int>(number));
+  Token token;
+  token.frequency = static_cast<std::uint16_t>(frequency);
+  token.start = static_cast<std::uint16_t>(start);
+  token.raw_bits = static_cast<std::uint8_t>(raw);
+  if (number == 0) {
+    token.hole_class = kLeftHole;
+  } else if (raw == 0) {
+    token.residual = unfold(static_cast<std::uint16_t>(number - 1));
+  }
+  return token;
+}
+
+/// Classes of the pixels below `above`, whose indices are `above_out`.
+void classify(const std::uint16_t* above, const std::uint16_t* above_out, int width_px,
+              std::uint16_t* classes) {
+  for (int u = 0; u < width_px - 1; ++u) {
+    classes[u] =
+        above_class(above[u - 1], above[u], above[u + 1], above_out[u] == 0, above_out[u + 1] == 0);
+  }
+  const int last = width_px - 1;
+  const bool hole = above_out[last] == 0;
+  classes[last] = above_class(above[last - 1], above[last], above[last], hole, hole);
+}
+
+inline void decode_pixel(Cursor& cursor, const Table* tables, int u) {
+  const std::uint16_t ul = cursor.above[u - 1];
+  const std::size_t context = static_cast<std::size_t>(cursor.above_classes[u]) +
+                              left_class(cursor.left, ul, cursor.hole_class);
+  const Table& table = tables[context];
+  const Token& token = table.tokens[table.token_at[cursor.coder.place()]];
+  cursor.coder.take(token.frequency, token.start);
+  std::uint16_t residual = token.residual;
+  if (token.raw_bits != 0) [[unlikely]] {
+    residual = unfold(
+        static_cast<std::uint16_t>(1U << token.raw_bits | cursor.coder.take_raw(token.raw_bits)));
+  }
+  const auto value =
+      static_cast<std::uint16_t>(predict(cursor.left, cursor.above[u], ul) + residual);
+  // Masks where a branch would be guessed wrong at every edge of a hole.
+  const auto seen = static_cast<std::uint16_t>((token.hole_class & 1) - 1);
+  cursor.left = static_cast<std::uint16_t>(cursor.left ^ ((cursor.left ^ value) & seen));
+  cursor.hole_class = token.hole_class;
+  cursor.row[u] = cursor.left;
+  cursor.out[u] = cursor.left & seen;
+}
+
 }  // namespace
 
 struct DepthDecoder::Memory {
   std::vector<std::uint16_t> palette;  ///< value of each index; palette[0] = 0
-  std::array<std::array<Share, kTokens>, kContexts> shares;
-  std::array<std::array<std::uint8_t, rans::kTotal>, kContexts> token_at;
+  std::array<Table, kContexts> tables;
   std::array<Lane, kLanes> lanes;
-  std::vector<std::uint16_t> above_classes;  ///< width x lanes
 
+  bool decode(Layout layout, Bytes bytes, int width_px, int height_px,
+              std::span<std::uint16_t> values);
   bool read_palette(Bytes& bytes);
-  bool read_tables(Bytes& bytes);
-  bool read_table(Bytes& bytes, std::size_t context);
+  bool read_table(Bytes& bytes, Table& table);
   bool open_lanes(Bytes bytes, int width_px, int height_px, std::uint16_t* values);
-  void decode_bands(int width_px, int height_px);
   template <std::size_t kCount>
   void decode_rows(int width_px);
-  std::uint16_t decode_pixel(rans::Decoder& coder, std::size_t context, std::uint16_t guess,
-                             std::uint16_t fill, std::uint16_t& hole) const;
   bool look_up(std::span<std::uint16_t> values) const;
 };
 
@@ -71,154 +141,109 @@ bool DepthDecoder::Memory::read_palette(Bytes& bytes) {
   std::size_t value = 0;
   for (std::size_t i = 0; i < *count; ++i) {
     const auto step = read_varint(bytes);
-    if (!step || *step > 0xFFFF) return false;
+    if (!step || *step == 0 || *step > 0xFFFF - value) return false;
     value += *step;
-    if (*step == 0 || value > 0xFFFF) return false;
     palette.push_back(static_cast<std::uint16_t>(value));
   }
   return true;
 }
 
-bool DepthDecoder::Memory::read_table(Bytes& bytes, std::size_t context) {
+bool DepthDecoder::Memory::read_table(Bytes& bytes, Table& table) {
   const auto used = read_varint(bytes);
   if (!used || *used > kTokens) return false;
-  auto& share = shares[context];
-  auto& tokens = token_at[context];
-  share.fill({});
-  std::uint32_t start = 0;
-  for (std::size_t token = 0; token < *used; ++token) {
+  std::size_t start = 0;
+  for (std::size_t number = 0; number < *used; ++number) {
     const auto frequency = read_varint(bytes);
     if (!frequency || *frequency > rans::kTotal - start) return false;
-    share[token] = {static_cast<std::uint16_t>(*frequency), static_cast<std::uint16_t>(start)};
-    std::memset(tokens.data() + start, static_cast<int>(token), *frequency);
-    start += static_cast<std::uint32_t>(*frequency);
+    table.tokens[number] = token_with(number, *frequency, start);
+    std::memset(table.token_at.data() + start, static_cast<int>(number), *frequency);
+    start += *frequency;
   }
   if (*used != 0) return start == rans::kTotal;
-  share[0] = {rans::kTotal, 0};  // no encoder uses this context; damaged bytes may
-  tokens.fill(0);
-  return true;
-}
-
-bool DepthDecoder::Memory::read_tables(Bytes& bytes) {
-  for (std::size_t context = 0; context < kContexts; ++context) {
-    if (!read_table(bytes, context)) return false;
-  }
+  table.tokens[0] = token_with(0, rans::kTotal, 0);  // only damaged bytes come here
+  table.token_at.fill(0);
   return true;
 }
 
 bool DepthDecoder::Memory::open_lanes(Bytes bytes, int width_px, int height_px,
                                       std::uint16_t* values) {
-  std::array<std::size_t, kLanes> sizes;
-  for (std::size_t& size : sizes) {
-    const auto words = read_varint(bytes);
-    if (!words) return false;
-    size = 2 * *words;
+  const auto first_words = read_varint(bytes);
+  const auto second_words = read_varint(bytes);
+  if (!first_words || !second_words || 2 * (*first_words + *second_words) != bytes.size()) {
+    return false;
   }
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    if (sizes[i] > bytes.size()) return false;
-    Lane& lane = lanes[i];
-    lane.coder = rans::Decoder(bytes.first(sizes[i]));
-    bytes = bytes.subspan(sizes[i]);
-    lane.above.reset(width_px);
-    lane.row.reset(width_px);
-    lane.out =
-        values + static_cast<std::ptrdiff_t>(band(static_cast<int>(i), height_px).first) * width_px;
+  lanes[0].coder = rans::Decoder(bytes.first(2 * *first_words));
+  lanes[1].coder = rans::Decoder(bytes.last(2 * *second_words));
+  const auto width = static_cast<std::size_t>(width_px);
+  lanes[0].out = values;
+  lanes[1].out = values + width * static_cast<std::size_t>(first_band_rows(height_px));
+  for (Lane& lane : lanes) {
+    lane.above.assign(width + 1, 0);
+    lane.row.resize(width + 1);
+    lane.above_classes.assign(width, above_class(0, 0, 0, true, true));
   }
-  return bytes.empty();
-}
-
-inline std::uint16_t DepthDecoder::Memory::decode_pixel(rans::Decoder& coder, std::size_t context,
-                                                        std::uint16_t guess, std::uint16_t fill,
-                                                        std::uint16_t& hole) const {
-  const std::uint8_t token = token_at[context][coder.place()];
-  const Share share = shares[context][token];
-  coder.take(share.frequency, share.start);
-  auto folded = static_cast<std::uint16_t>(token - 1);
-  if (token > kDirect) {
-    const int bits = raw_bits(token);
-    folded = static_cast<std::uint16_t>(1U << bits | coder.take_raw(bits));
-  }
-  hole = token == 0;
-  return token == 0 ? fill : static_cast<std::uint16_t>(guess + unzigzag(folded));
+  return true;
 }
 
 /// One row of each of the first kCount lanes, side by side.
 template <std::size_t kCount>
 void DepthDecoder::Memory::decode_rows(int width_px) {
-  std::array<rans::Decoder, kCount> coders;
-  std::array<std::uint16_t, kCount> left;
-  std::array<std::uint16_t, kCount> hole_left;
+  std::array<Cursor, kCount> cursors;
   for (std::size_t i = 0; i < kCount; ++i) {
     Lane& lane = lanes[i];
-    lane.row.open(lane.above);
-    coders[i] = lane.coder;
-    left[i] = lane.row.fill()[-1];
-    hole_left[i] = 0;
-    std::uint16_t* classes = above_classes.data() + i * static_cast<std::size_t>(width_px);
-    const std::uint16_t* up = lane.above.fill();
-    const std::uint16_t* up_hole = lane.above.hole();
-    for (int u = 0; u < width_px; ++u) {
-      classes[u] = above_class(up[u - 1], up[u], up[u + 1], up_hole[u], up_hole[u + 1]);
-    }
+    lane.row[0] = lane.above[1];
+    cursors[i] = {lane.coder,
+                  lane.above_classes.data(),
+                  lane.above.data() + 1,
+                  lane.row.data() + 1,
+                  lane.out,
+                  lane.row[0],
+                  0};
   }
   for (int u = 0; u < width_px; ++u) {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      Lane& lane = lanes[i];
-      const std::uint16_t ul = lane.above.fill()[u - 1];
-      const std::uint16_t up = lane.above.fill()[u];
-      const std::size_t context =
-          above_classes[i * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(u)] +
-          std::size_t{left_class(left[i], ul, hole_left[i])};
-      left[i] = decode_pixel(coders[i], context, predict(left[i], up, ul), left[i], hole_left[i]);
-      lane.row.fill()[u] = left[i];
-      lane.row.hole()[u] = hole_left[i];
-    }
+#pragma GCC unroll 2
+    for (Cursor& cursor : cursors) decode_pixel(cursor, tables.data(), u);
   }
   for (std::size_t i = 0; i < kCount; ++i) {
     Lane& lane = lanes[i];
-    lane.coder = coders[i];
-    for (int u = 0; u < width_px; ++u) {
-      lane.out[u] = lane.row.hole()[u] != 0 ? std::uint16_t{0} : lane.row.fill()[u];
-    }
+    lane.coder = cursors[i].coder;
+    classify(lane.row.data() + 1, lane.out, width_px, lane.above_classes.data());
     lane.out += width_px;
-    lane.row.close();
     std::swap(lane.above, lane.row);
   }
 }
 
-/// Bands differ in rows: side by side while all have one, then those that are left.
-void DepthDecoder::Memory::decode_bands(int width_px, int height_px) {
-  above_classes.resize(static_cast<std::size_t>(width_px) * kLanes);
-  const auto rows_of = [height_px](int lane) {
-    const Band rows = band(lane, height_px);
-    return rows.end - rows.first;
-  };
-  static_assert(kLanes == 4);
-  int row = 0;
-  for (; row < rows_of(3); ++row) decode_rows<4>(width_px);
-  for (; row < rows_of(2); ++row) decode_rows<3>(width_px);
-  for (; row < rows_of(1); ++row) decode_rows<2>(width_px);
-  for (; row < rows_of(0); ++row) decode_rows<1>(width_px);
-}
-
 /// Indices to values; false if there is one that the palette has not.
 bool DepthDecoder::Memory::look_up(std::span<std::uint16_t> values) const {
-  const std::uint16_t* value_of = palette.data();
   std::uint16_t largest = 0;
   for (const std::uint16_t index : values) largest = std::max(largest, index);
   if (largest >= palette.size()) return false;
+  const std::uint16_t* value_of = palette.data();
   for (std::uint16_t& value : values) value = value_of[value];
   return true;
 }
 
+bool DepthDecoder::Memory::decode(Layout layout, Bytes bytes, int width_px, int height_px,
+                                  std::span<std::uint16_t> values) {
+  if (layout == kPalette && !read_palette(bytes)) return false;
+  for (Table& table : tables) {
+    if (!read_table(bytes, table)) return false;
+  }
+  if (!open_lanes(bytes, width_px, height_px, values.data())) return false;
+  for (int row = 0; row < height_px / 2; ++row) decode_rows<2>(width_px);
+  if (height_px % 2 != 0) decode_rows<1>(width_px);
+  return lanes[0].coder.at_end() && lanes[1].coder.at_end() &&
+         (layout == kValues || look_up(values));
+}
+
 bool DepthDecoder::decode(Bytes bytes, int width_px, int height_px,
                           std::span<std::uint16_t> values) {
+  const auto width = static_cast<std::size_t>(width_px);
+  const auto height = static_cast<std::size_t>(height_px);
   if (std::min(width_px, height_px) < 1 || std::max(width_px, height_px) > kSideMax_px ||
-      values.size() != static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) ||
-      bytes.size() < kHeaderBytes ||
+      values.size() != width * height || bytes.size() < kHeaderBytes ||
       !std::equal(std::begin(kMagic), std::end(kMagic), bytes.begin()) ||
-      u16_at(bytes, 4) != static_cast<std::size_t>(width_px) ||
-      u16_at(bytes, 6) != static_cast<std::size_t>(height_px)) {
+      u16_at(bytes, 4) != width || u16_at(bytes, 6) != height) {
     return false;
   }
   const std::uint8_t layout = bytes[3];
@@ -228,16 +253,8 @@ bool DepthDecoder::decode(Bytes bytes, int width_px, int height_px,
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return true;
   }
-  if (layout != kValues && layout != kPalette) return false;
-  Memory& memory = *memory_;
-  if (layout == kPalette && !memory.read_palette(bytes)) return false;
-  if (!memory.read_tables(bytes) || !memory.open_lanes(bytes, width_px, height_px, values.data())) {
-    return false;
-  }
-  memory.decode_bands(width_px, height_px);
-  const bool whole =
-      std::ranges::all_of(memory.lanes, [](const Lane& lane) { return lane.coder.at_end(); });
-  return whole && (layout == kValues || memory.look_up(values));
+  return (layout == kValues || layout == kPalette) &&
+         memory_->decode(static_cast<Layout>(layout), bytes, width_px, height_px, values);
 }
 
 }  // namespace roomwise

@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "common/image/depth_codec.h"
 #include "common/image/depth_model.h"
@@ -14,10 +17,26 @@ using namespace pdz16;
 static_assert(std::endian::native == std::endian::little,
               "values and words are stored as they lie");
 
-/// A pixel as the entropy coder takes it, and how many raw bits' values precede it.
-struct Symbol {
-  std::uint8_t context;
-  std::uint8_t token;
+/// A pixel as the entropy coder takes it: context * kTokenSlots + token.
+using Symbol = std::uint16_t;
+constexpr auto kTokenSlots = static_cast<std::uint16_t>(std::bit_ceil(kTokens));
+constexpr std::size_t kSymbols = kContexts * kTokenSlots;
+
+/// What the first pass leaves of a band for the second, in pixel order.
+struct Lane {
+  std::vector<Symbol> symbols;
+  std::vector<std::uint16_t> folded;  ///< of the symbols that have raw bits
+};
+
+/// A row of indices with a pixel of margin on both sides, holes filled from the left.
+struct Row {
+  std::vector<std::uint16_t> fill;
+  std::vector<std::uint16_t> hole;  ///< 0 or 1
+
+  void reset(std::size_t width) {
+    fill.assign(width + 2, 0);
+    hole.assign(width + 2, 1);
+  }
 };
 
 void append_u16(std::size_t value, std::vector<std::uint8_t>& out) {
@@ -25,17 +44,31 @@ void append_u16(std::size_t value, std::vector<std::uint8_t>& out) {
   out.push_back(static_cast<std::uint8_t>(value >> 8));
 }
 
-/// Seven bits a byte, the lowest first; the top bit says that more follow.
 void append_varint(std::size_t value, std::vector<std::uint8_t>& out) {
   for (; value >= 0x80; value >>= 7) out.push_back(static_cast<std::uint8_t>(value | 0x80));
   out.push_back(static_cast<std::uint8_t>(value));
 }
 
-/// What one lane of the model pass leaves for the coding pass, in pixel order.
-struct LaneSymbols {
-  std::vector<Symbol> symbols;
-  std::vector<std::uint16_t> folded;  ///< of the symbols that have raw bits
-};
+/// Symbols and folded residuals of a row. Every large residual gets the token kDirect + 1 here.
+void model_row(const Row& above_row, const Row& row, int width_px, Symbol* symbols,
+               std::uint16_t* folded) {
+  const std::uint16_t* above = above_row.fill.data() + 1;
+  const std::uint16_t* above_hole = above_row.hole.data() + 1;
+  const std::uint16_t* here = row.fill.data() + 1;
+  const std::uint16_t* hole = row.hole.data() + 1;
+  for (int u = 0; u < width_px; ++u) {
+    folded[u] =
+        fold(static_cast<std::uint16_t>(here[u] - predict(here[u - 1], above[u], above[u - 1])));
+  }
+  for (int u = 0; u < width_px; ++u) {
+    const auto context = static_cast<std::uint16_t>(
+        above_class(above[u - 1], above[u], above[u + 1], above_hole[u] != 0,
+                    above_hole[u + 1] != 0) +
+        left_class(here[u - 1], above[u - 1], static_cast<std::uint16_t>(kLeftHole * hole[u - 1])));
+    const std::uint16_t token = std::min<std::uint16_t>(folded[u], kDirect);
+    symbols[u] = static_cast<Symbol>(context * kTokenSlots + (token + 1) * (1 - hole[u]));
+  }
+}
 
 }  // namespace
 
@@ -45,24 +78,22 @@ struct DepthEncoder::Memory {
   std::vector<std::uint16_t> distinct;  ///< ascending, without 0
   Row above;
   Row row;
-  std::vector<std::uint16_t> row_context;
   std::vector<std::uint16_t> row_folded;
-  std::array<LaneSymbols, kLanes> lanes;
-  std::array<std::array<std::uint32_t, kTokens>, kContexts> counts;
-  std::array<std::array<rans::EncoderSymbol, kTokens>, kContexts> tables;
+  std::array<Lane, kLanes> lanes;
+  std::array<std::uint32_t, kSymbols> counts;
+  std::array<rans::EncoderSymbol, kSymbols> codes;
   std::vector<std::uint16_t> words;
 
   void find_distinct(std::span<const std::uint16_t> values);
   bool palette_pays(std::size_t pixels) const;
   void choose_indices(bool palette);
   void append_palette(std::vector<std::uint8_t>& out) const;
-  void model_lane(const std::uint16_t* values, int width_px, int rows, LaneSymbols& lane);
   void load_row(const std::uint16_t* values, int width_px);
-  void model_row(int width_px);
-  void count_row(int width_px, LaneSymbols& lane);
+  void count_row(Symbol* symbols, int width_px, Lane& lane);
+  void model_lane(const std::uint16_t* values, int width_px, int rows, Lane& lane);
   void append_tables(std::vector<std::uint8_t>& out);
+  void put(Symbol symbol, const std::uint16_t*& folded_end, rans::Encoder& coder) const;
   void append_lanes(std::vector<std::uint8_t>& out);
-  std::span<const std::uint16_t> code_lane(const LaneSymbols& lane, std::uint16_t* end) const;
 };
 
 DepthEncoder::DepthEncoder() : memory_(std::make_unique<Memory>()) {}
@@ -80,7 +111,7 @@ void DepthEncoder::Memory::find_distinct(std::span<const std::uint16_t> values) 
   std::ranges::sort(distinct);
 }
 
-/// A palette costs about a byte a colour and saves a bit or more a pixel where values lie sparse.
+/// A palette costs about a byte a value, and saves a bit or more a pixel where values lie sparse.
 bool DepthEncoder::Memory::palette_pays(std::size_t pixels) const {
   return !distinct.empty() && distinct.size() * 16 <= pixels &&
          distinct.size() * 2 <= distinct.back();
@@ -101,143 +132,127 @@ void DepthEncoder::Memory::append_palette(std::vector<std::uint8_t>& out) const 
 }
 
 void DepthEncoder::Memory::load_row(const std::uint16_t* values, int width_px) {
-  row.open(above);
-  std::uint16_t* fill = row.fill();
-  std::uint16_t* hole = row.hole();
-  std::uint16_t last = fill[-1];
+  std::uint16_t* fill = row.fill.data() + 1;
+  std::uint16_t* hole = row.hole.data() + 1;
+  std::uint16_t left = above.fill[1];
+  fill[-1] = left;
+  hole[-1] = 0;
   for (int u = 0; u < width_px; ++u) {
     const std::uint16_t value = values[u];
-    last = value == 0 ? last : index_of[value];
-    fill[u] = last;
+    const std::uint16_t index = index_of[value];
+    left = value == 0 ? left : index;
+    fill[u] = left;
     hole[u] = value == 0;
   }
-  row.close();
+  fill[width_px] = left;
+  hole[width_px] = hole[width_px - 1];
 }
 
-void DepthEncoder::Memory::model_row(int width_px) {
-  const std::uint16_t* up = above.fill();
-  const std::uint16_t* up_hole = above.hole();
-  const std::uint16_t* here = row.fill();
-  const std::uint16_t* here_hole = row.hole();
-  std::uint16_t* context = row_context.data();
-  std::uint16_t* folded = row_folded.data();
+/// Counts a row's symbols, and gives the large residuals the tokens of their size.
+void DepthEncoder::Memory::count_row(Symbol* symbols, int width_px, Lane& lane) {
   for (int u = 0; u < width_px; ++u) {
-    const std::uint16_t guess = predict(here[u - 1], up[u], up[u - 1]);
-    folded[u] = zigzag(static_cast<std::uint16_t>(here[u] - guess));
-  }
-  for (int u = 0; u < width_px; ++u) {
-    context[u] = static_cast<std::uint16_t>(
-        above_class(up[u - 1], up[u], up[u + 1], up_hole[u], up_hole[u + 1]) +
-        left_class(here[u - 1], up[u - 1], here_hole[u - 1]));
-  }
-}
-
-void DepthEncoder::Memory::count_row(int width_px, LaneSymbols& lane) {
-  const std::uint16_t* hole = row.hole();
-  const std::size_t first = lane.symbols.size();
-  lane.symbols.resize(first + static_cast<std::size_t>(width_px));
-  Symbol* symbol = lane.symbols.data() + first;
-  for (int u = 0; u < width_px; ++u) {
-    const auto at = static_cast<std::size_t>(u);
-    const std::uint16_t folded = row_folded[at];
-    int token = 1 + folded;
-    if (folded >= kDirect) {
-      token = token_of(folded);
-      if (hole[u] == 0) lane.folded.push_back(folded);
+    if ((symbols[u] & (kTokenSlots - 1)) > kDirect) [[unlikely]] {
+      const std::uint16_t folded = row_folded[static_cast<std::size_t>(u)];
+      symbols[u] = static_cast<Symbol>(symbols[u] + token_of(folded) - (kDirect + 1));
+      lane.folded.push_back(folded);
     }
-    token = hole[u] != 0 ? 0 : token;
-    const std::uint16_t context = row_context[at];
-    ++counts[context][static_cast<std::size_t>(token)];
-    symbol[u] = {static_cast<std::uint8_t>(context), static_cast<std::uint8_t>(token)};
+    ++counts[symbols[u]];
   }
 }
 
 void DepthEncoder::Memory::model_lane(const std::uint16_t* values, int width_px, int rows,
-                                      LaneSymbols& lane) {
-  lane.symbols.clear();
+                                      Lane& lane) {
+  const auto width = static_cast<std::size_t>(width_px);
+  lane.symbols.resize(width * static_cast<std::size_t>(rows));
   lane.folded.clear();
-  above.reset(width_px);
-  row.reset(width_px);
-  for (int v = 0; v < rows; ++v) {
-    load_row(values + static_cast<std::ptrdiff_t>(v) * width_px, width_px);
-    model_row(width_px);
-    count_row(width_px, lane);
+  above.reset(width);
+  row.reset(width);
+  row_folded.resize(width);
+  Symbol* symbols = lane.symbols.data();
+  for (int v = 0; v < rows; ++v, values += width, symbols += width) {
+    load_row(values, width_px);
+    model_row(above, row, width_px, symbols, row_folded.data());
+    count_row(symbols, width_px, lane);
     std::swap(above, row);
   }
 }
 
-/// Each context's number of tokens up to the last one used, then their frequencies.
 void DepthEncoder::Memory::append_tables(std::vector<std::uint8_t>& out) {
   for (std::size_t context = 0; context < kContexts; ++context) {
+    const std::size_t first = context * kTokenSlots;
     std::array<std::uint16_t, kTokens> frequencies;
-    rans::normalise(counts[context], frequencies);
+    rans::normalise(std::span(counts).subspan(first, kTokens), frequencies);
     std::size_t used = kTokens;
     while (used > 0 && frequencies[used - 1] == 0) --used;
     append_varint(used, out);
     std::uint32_t start = 0;
     for (std::size_t token = 0; token < used; ++token) {
       append_varint(frequencies[token], out);
-      tables[context][token] = rans::encoder_symbol(frequencies[token], start);
+      codes[first + token] = rans::encoder_symbol(frequencies[token], start);
       start += frequencies[token];
     }
   }
 }
 
-std::span<const std::uint16_t> DepthEncoder::Memory::code_lane(const LaneSymbols& lane,
-                                                               std::uint16_t* end) const {
-  rans::Encoder coder(end);
-  const std::uint16_t* folded = lane.folded.data() + lane.folded.size();
-  for (std::size_t i = lane.symbols.size(); i-- > 0;) {
-    const Symbol symbol = lane.symbols[i];
-    if (symbol.token > kDirect) {
-      const int bits = raw_bits(symbol.token);
-      coder.put_raw(*--folded & ((1U << bits) - 1), bits);
-    }
-    coder.put(tables[symbol.context][symbol.token]);
+inline void DepthEncoder::Memory::put(Symbol symbol, const std::uint16_t*& folded_end,
+                                      rans::Encoder& coder) const {
+  const int token = symbol & (kTokenSlots - 1);
+  if (token > kDirect) [[unlikely]] {
+    const int bits = raw_bits(token);
+    coder.put_raw(*--folded_end & ((1U << bits) - 1), bits);
   }
-  coder.finish();
-  return coder.words();
+  coder.put(codes[symbol]);
 }
 
-/// The lanes' sizes in words, then their words.
+/// Both lanes' words, written from their last symbols to their first, side by side.
 void DepthEncoder::Memory::append_lanes(std::vector<std::uint8_t>& out) {
-  std::array<std::span<const std::uint16_t>, kLanes> coded;
-  std::size_t end = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    end += 2 * lanes[i].symbols.size() + 2;  // a token and raw bits each move a word at most
-    coded[i] = code_lane(lanes[i], words.data() + end);
-    append_varint(coded[i].size(), out);
+  // A token and its raw bits each move a word at most; the state is two.
+  const auto room = [](const Lane& lane) { return 2 * lane.symbols.size() + 2; };
+  words.resize(room(lanes[0]) + room(lanes[1]));
+  rans::Encoder first(words.data() + room(lanes[0]));
+  rans::Encoder second(words.data() + words.size());
+  const std::uint16_t* first_folded = lanes[0].folded.data() + lanes[0].folded.size();
+  const std::uint16_t* second_folded = lanes[1].folded.data() + lanes[1].folded.size();
+  std::size_t left = lanes[0].symbols.size();
+  for (; left > lanes[1].symbols.size(); --left) {
+    put(lanes[0].symbols[left - 1], first_folded, first);
   }
-  for (const auto& lane : coded) {
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(lane.data());
-    out.insert(out.end(), bytes, bytes + lane.size_bytes());
+  for (; left > 0; --left) {
+    put(lanes[0].symbols[left - 1], first_folded, first);
+    put(lanes[1].symbols[left - 1], second_folded, second);
+  }
+  for (rans::Encoder* coder : {&first, &second}) {
+    coder->finish();
+    append_varint(coder->words().size(), out);
+  }
+  for (const rans::Encoder& coder : {first, second}) {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(coder.words().data());
+    out.insert(out.end(), bytes, bytes + coder.words().size_bytes());
   }
 }
 
 void DepthEncoder::encode(std::span<const std::uint16_t> values, int width_px, int height_px,
                           std::vector<std::uint8_t>& out) {
+  const auto width = static_cast<std::size_t>(width_px);
+  const auto height = static_cast<std::size_t>(height_px);
   if (std::min(width_px, height_px) < 1 || std::max(width_px, height_px) > kSideMax_px ||
-      values.size() != static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {
+      values.size() != width * height) {
     throw std::invalid_argument("depth image: size does not match its values");
   }
   Memory& memory = *memory_;
   memory.find_distinct(values);
   const bool palette = memory.palette_pays(values.size());
   memory.choose_indices(palette);
-  memory.counts = {};
-  memory.row_context.resize(static_cast<std::size_t>(width_px));
-  memory.row_folded.resize(static_cast<std::size_t>(width_px));
-  memory.words.resize(2 * values.size() + 2 * kLanes);
+  memory.counts.fill(0);
+  const int rows = first_band_rows(height_px);
+  const std::size_t second_band = width * static_cast<std::size_t>(rows);
+  memory.model_lane(values.data(), width_px, rows, memory.lanes[0]);
+  memory.model_lane(values.data() + second_band, width_px, height_px - rows, memory.lanes[1]);
 
-  for (int i = 0; i < kLanes; ++i) {
-    const Band rows = band(i, height_px);
-    memory.model_lane(values.data() + static_cast<std::ptrdiff_t>(rows.first) * width_px, width_px,
-                      rows.end - rows.first, memory.lanes[static_cast<std::size_t>(i)]);
-  }
   out.assign(std::begin(kMagic), std::end(kMagic));
   out.push_back(palette ? kPalette : kValues);
-  append_u16(static_cast<std::size_t>(width_px), out);
-  append_u16(static_cast<std::size_t>(height_px), out);
+  append_u16(width, out);
+  append_u16(height, out);
   if (palette) memory.append_palette(out);
   memory.append_tables(out);
   memory.append_lanes(out);

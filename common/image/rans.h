@@ -9,7 +9,7 @@
 /// last symbol to the first, the decoder from the first to the last.
 namespace roomwise::rans {
 
-constexpr int kTotalBits = 11;
+constexpr int kTotalBits = 10;
 constexpr std::uint32_t kTotal = 1U << kTotalBits;  ///< what the frequencies of a table add up to
 
 /// States between symbols lie in [kStateMin, 2^31); words of 16 bits move in and out below.
@@ -17,17 +17,17 @@ constexpr std::uint32_t kStateMin = 1U << 15;
 constexpr int kStateBits = 31;
 
 /// One symbol of a table as the encoder needs it. The quotient state / frequency is taken as
-/// state * reciprocal >> kQuotientShift: exact, for state * frequency < 2^kQuotientShift.
+/// state * reciprocal >> kQuotientShift: exact, because state * frequency < 2^kQuotientShift.
 struct EncoderSymbol {
-  std::uint32_t frequency = 0;
-  std::uint32_t start = 0;  ///< sum of the frequencies of the symbols before it
   std::uint64_t reciprocal = 0;
+  std::uint32_t start = 0;  ///< sum of the frequencies of the symbols before it
+  std::uint32_t frequency = 0;
 };
 constexpr int kQuotientShift = kStateBits + kTotalBits;
 
 constexpr EncoderSymbol encoder_symbol(std::uint32_t frequency, std::uint32_t start) {
   if (frequency == 0) return {};
-  return {frequency, start, ((1ULL << kQuotientShift) + frequency - 1) / frequency};
+  return {((1ULL << kQuotientShift) + frequency - 1) / frequency, start, frequency};
 }
 
 /// Writes words downwards from the end of its memory, which must reach.
@@ -39,8 +39,8 @@ class Encoder {
   void put(const EncoderSymbol& symbol) {
     make_room(symbol.frequency << (kStateBits - kTotalBits));
     const auto quotient = static_cast<std::uint32_t>(state_ * symbol.reciprocal >> kQuotientShift);
-    const std::uint32_t remainder = state_ - quotient * symbol.frequency;
-    state_ = (quotient << kTotalBits) + remainder + symbol.start;
+    // quotient * kTotal + remainder + start
+    state_ += symbol.start + quotient * (kTotal - symbol.frequency);
   }
   void put_raw(std::uint32_t value, int bits) {
     make_room(1U << (kStateBits - bits));

@@ -119,9 +119,9 @@ void apply_toml(std::string_view toml, std::string_view source, const ParamField
   try {
     const toml::table table = toml::parse(toml, source);
     for (const auto& [key, node] : table) {
-      const auto refuse = [&, line = node.source().begin.line](const std::string& what) {
-        throw std::runtime_error(
-            fmt::format("{}:{}: {} must be {}", source, line, key.str(), what));
+      const auto refuse = [&, name = key.str(),
+                           line = node.source().begin.line](const std::string& what) {
+        throw std::runtime_error(fmt::format("{}:{}: {} must be {}", source, line, name, what));
       };
       const ParamField* field = find_field(fields, key.str());
       if (field == nullptr) refuse("one of the parameters " + names_of(fields));

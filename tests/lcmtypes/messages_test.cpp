@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -217,6 +218,23 @@ TEST(Encode, ThrowsWhenACountInsideAnElementIsWrong) {
   health.channel_count = 1;
   Bytes bytes;
   EXPECT_THROW(encode(health, bytes), std::logic_error);
+}
+
+// lcm-gen sizes a string by its length and writes it up to its first NUL.
+TEST(Encode, ThrowsWhenAStringHasANulInside) {
+  named_count_t message{};
+  message.name = std::string("a\0b", 3);
+  Bytes bytes;
+  EXPECT_THROW(encode(message, bytes), std::logic_error);
+}
+
+TEST(Decode, RefusesAStringWithANulInside) {
+  named_count_t message{};
+  message.name = "a?b";
+  Bytes bytes;
+  encode(message, bytes);
+  *std::find(bytes.begin(), bytes.end(), '?') = 0;
+  EXPECT_EQ(decode(std::span<const std::uint8_t>(bytes), message), DecodeResult::kBadCounts);
 }
 
 }  // namespace

@@ -1,0 +1,145 @@
+// Writes a small corpus for every fuzzer into FOLDER/NAME_OF_FUZZER. usage: make_seeds FOLDER
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "common/bus/log_file.h"
+#include "common/bus/wire.h"
+#include "common/frames/frame_encoder.h"
+#include "roomwise/all_messages.hpp"
+
+namespace roomwise {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+class Corpus {
+ public:
+  explicit Corpus(const std::filesystem::path& folder) : folder_(folder) {
+    std::filesystem::create_directories(folder);
+  }
+  void add(const Bytes& bytes) {
+    std::ofstream file(folder_ / std::to_string(seeds_++), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  }
+  void add(std::string_view text) { add(Bytes(text.begin(), text.end())); }
+
+ private:
+  std::filesystem::path folder_;
+  int seeds_ = 0;
+};
+
+/// A step with a hole; few values far apart, or many.
+DepthImage depth_image(bool few_values) {
+  DepthImage depth{40, 30, 0.001, {}};
+  for (int v = 0; v < 30; ++v) {
+    for (int u = 0; u < 40; ++u) {
+      const int index = (u > 20 ? 20 : 8) + v / 9;
+      const int step = few_values ? 40 * index : 900 + u * u + 3 * v + 700 * (u > 20);
+      depth.steps.push_back(static_cast<std::uint16_t>(u / 4 == 5 ? 0 : step));
+    }
+  }
+  return depth;
+}
+
+kinect_frame_t frame_message(std::int8_t depth_encoding, std::int8_t color_encoding) {
+  kinect_frame_t message{};
+  FrameEncoder encoder;
+  encoder.encode_depth(depth_image(true), depth_encoding, message);
+  ColorImage color{24, 16, {}};
+  for (int i = 0; i < 24 * 16 * 3; ++i) color.rgb.push_back(static_cast<std::uint8_t>(i));
+  encoder.encode_color(color, color_encoding, 80, message);
+  encode_depth_camera({60.0, 60.0, 19.5, 14.5}, message);
+  encode_color_camera({40.0, 40.0, 11.5, 7.5}, message);
+  encode_pose(Eigen::Isometry3d::Identity(), message);
+  return message;
+}
+
+void depth_codec_seeds(Corpus corpus) {
+  for (const bool few_values : {false, true}) {
+    const DepthImage depth = depth_image(few_values);
+    Bytes coded;
+    DepthEncoder().encode(depth.steps, depth.width_px, depth.height_px, coded);
+    coded.insert(coded.begin(), {1, 39, 29, 16});
+    corpus.add(coded);
+    Bytes raw{0, 39, 29, 16};
+    for (const std::uint16_t step : depth.steps) {
+      raw.push_back(static_cast<std::uint8_t>(step));
+      raw.push_back(static_cast<std::uint8_t>(step >> 8));
+    }
+    corpus.add(raw);
+  }
+}
+
+void frame_seeds(Corpus corpus) {
+  for (const auto depth : {kinect_frame_t::DEPTH_RAW16, kinect_frame_t::DEPTH_PDZ16}) {
+    for (const auto color : {kinect_frame_t::COLOR_RGB8, kinect_frame_t::COLOR_JPEG}) {
+      Bytes bytes;
+      encode(frame_message(depth, color), bytes);
+      corpus.add(bytes);
+    }
+  }
+}
+
+template <class... Messages>
+void wire_seeds(Corpus corpus, const std::tuple<Messages...>&) {
+  std::uint8_t type = 0;
+  const auto add = [&](const auto& message) {
+    Bytes bytes;
+    encode(message, bytes);
+    bytes.insert(bytes.begin(), type++);
+    corpus.add(bytes);
+  };
+  (add(Messages{}), ...);
+}
+
+void params_seeds(Corpus corpus) {
+  corpus.add("range_noise_m = 0.1\nrows_min = 7\npublish_edges = true\nmethod = \"disparity\"\n");
+  corpus.add("# a comment\nlabel = \"\\u00e9\\n\"\n");
+  corpus.add("rows_min = 99999999999\nunknown = [1, {a = 1979-05-27}]\n");
+}
+
+void log_seeds(Corpus corpus, const std::filesystem::path& scratch) {
+  {
+    LogWriter writer(scratch);
+    for (int i = 0; i < 3; ++i) {
+      writer.write(LogEvent{Time(std::chrono::microseconds(1000 * i)), "ODOMETRY", Bytes(20, 7)});
+    }
+    writer.close();
+  }
+  std::ifstream file(scratch, std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(file)), {});
+  std::filesystem::remove(scratch);
+  corpus.add(whole);
+  corpus.add(whole.substr(0, whole.size() - 9));
+  corpus.add("torn" + whole);
+}
+
+void make_seeds(const std::filesystem::path& folder) {
+  depth_codec_seeds(Corpus(folder / "fuzz_depth_codec"));
+  frame_seeds(Corpus(folder / "fuzz_frame_decoder"));
+  wire_seeds(Corpus(folder / "fuzz_wire"), AllMessages{});
+  params_seeds(Corpus(folder / "fuzz_params"));
+  log_seeds(Corpus(folder / "fuzz_log_reader"), folder / "seed.lcmlog");
+}
+
+}  // namespace
+}  // namespace roomwise
+
+int main(int argc, char** argv) try {
+  if (argc != 2) throw std::runtime_error("usage: make_seeds FOLDER");
+  roomwise::make_seeds(argv[1]);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "make_seeds: %s\n", error.what());
+  return 1;
+}
