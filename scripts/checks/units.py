@@ -7,11 +7,11 @@ SUFFIXES = (
     "per_m", "per_s", "per_rad", "per_px", "mm_per_px", "m_per_m", "rad_per_m", "rad_per_rad",
     "m2_per_m", "rad2_per_m", "rad2_per_rad",
     # images
-    "px", "px2", "quanta", "grey", "grey2",
+    "px", "px2", "quanta", "levels", "levels2",
     # electricity and heat
     "v", "a", "c", "ah", "w",
     # no dimension
-    "ratio", "log", "log2", "quat", "dof", "sigmas", "db",
+    "ratio", "log", "log2", "quat", "dof", "sigmas", "mahalanobis_sq",
 )
 
 

@@ -58,11 +58,13 @@ class Tidy(RuleCase):
         subprocess.run(["ninja", "-C", build], check=True, capture_output=True)
         return tree
 
-    def test_a_bad_name_and_an_uninitialised_member_are_refused(self):
-        found = tidy.check(self.project('#include "a.h"\nclass bad_name {\n  int x_;\n'
-                                        " public:\n  bad_name() {}\n};\nint f() { return one(); }\n"))
-        self.assertTrue(any(line.startswith("a.cpp:2: invalid case style") for line in found), found)
-        self.assertTrue(any("pro-type-member-init" in line for line in found), found)
+    def test_a_bad_name_and_a_use_after_move_are_refused(self):
+        found = tidy.check(self.project(
+            '#include <string>\n#include <utility>\nclass bad_name {};\n'
+            "std::string f(std::string s) {\n  std::string t = std::move(s);\n  return t + s;\n}\n"))
+        self.assertTrue(any(line.startswith("a.cpp:3: invalid case style") for line in found), found)
+        self.assertTrue(any(line.startswith("a.cpp:6:") and "use-after-move" in line
+                            for line in found), found)
 
     def test_clean_code_is_judged_once_until_it_or_its_header_changes(self):
         tree = self.project('#include "a.h"\nint two() { return one() + 1; }\n')

@@ -84,6 +84,34 @@ class Parameters(RuleCase):
         self.assert_refused({self.path: PARAMS.replace('"rows_min"', '"rows"')},
                             f'{self.path}:12: field "rows" must be named as its member rows_min')
 
+    GROUP = """
+struct JumpParams {
+  double range_min_m = 1.22;
+  int run_px = 3;
+};
+struct EdgeParams {
+  JumpParams jump;
+  template <class Field>
+  void visit_fields(Field&& field) {
+    field("thesis_range_min_m", jump.range_min_m, 0.0, 4.0);
+    field("run_px", jump.run_px, 1, 9);
+  }
+};
+"""
+
+    def test_a_group_may_have_a_word_before_its_names(self):
+        self.assert_clean({self.path: self.GROUP})
+
+    def test_a_group_that_changes_names_is_refused(self):
+        self.assert_refused({self.path: self.GROUP.replace('"run_px"', '"run"')},
+                            f'{self.path}:11: field "run" must be named as its member run_px')
+
+    def test_a_group_is_searched_for_units_and_for_what_is_forgotten(self):
+        group = self.GROUP.replace("range_min_m", "range_min").replace(
+            '    field("run_px", jump.run_px, 1, 9);\n', "")
+        self.assert_refused({self.path: group}, f"{self.path}:3: range_min does not end",
+                            f"{self.path}:4: jump.run_px is not in visit_fields of EdgeParams")
+
     def test_a_parameter_nobody_can_set_is_refused(self):
         self.assert_refused({self.path: PARAMS.replace('    field("greedy", greedy);\n', "")},
                             f"{self.path}:6: greedy is not in visit_fields of FilterParams")

@@ -3,8 +3,8 @@ import unittest
 
 from rule_case import RuleCase
 
-from checks import (citations, core_purity, file_length, formatting, layers, links, machine_traces,
-                    names, service_folders, shell_scripts)
+from checks import (citations, core_purity, file_length, formatting, initial_values, layers, links,
+                    machine_traces, names, service_folders, shell_scripts)
 
 
 class CorePurity(RuleCase):
@@ -137,6 +137,21 @@ class FileLength(RuleCase):
     def test_401_lines_are_refused(self):
         self.assert_refused({"a.cpp": "\n" * 401, "scripts/demo": "\n" * 401},
                             "a.cpp:401: 401 lines", "scripts/demo:401:")
+
+
+class InitialValues(RuleCase):
+    rule = initial_values
+
+    def test_values_in_declaration_or_constructor_are_clean(self):
+        self.assert_clean({
+            "common/a.h": "class A {\n  A();\n  int a_ = 0;\n  double b_{};\n  bool c_;\n  B* d_;\n};\n"
+                          "struct S {\n  int a;\n};\n",
+            "common/a.cpp": "A::A()\n    : c_(true),\n      d_{nullptr} {}\n"})
+
+    def test_a_number_nobody_sets_is_refused(self):
+        self.assert_refused({"common/a.h": "class A {\n  std::size_t size_;\n  const char* name_;\n"
+                                           "  void f() { g(size_, 1); }\n};\n"},
+                            "common/a.h:2: size_ has no initial", "common/a.h:3: name_ has no initial")
 
 
 class Links(RuleCase):
