@@ -15,7 +15,7 @@ struct Landmark {
   std::int64_t map_id = 0;     ///< never used twice
   std::int32_t identity = -1;  ///< >= 0: known for certain; -1: unknown
   std::int8_t kind = 0;        ///< landmark_observation_t.KIND_*
-  Signature signature;
+  Signature signature = {};
   std::int32_t times_seen = 0;
   std::int32_t refusals = 0;  ///< gate refusals in a row
 };

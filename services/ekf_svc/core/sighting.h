@@ -14,7 +14,7 @@ struct Sighting {
   std::int32_t identity = -1;  ///< >= 0: known for certain; -1: unknown
   std::int8_t kind = 0;
   bool moving = false;
-  Signature signature;
+  Signature signature = {};
 };
 
 /// What became of a sighting.

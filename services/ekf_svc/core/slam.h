@@ -22,8 +22,8 @@ struct FrameResult {
 /// Simultaneous localisation and mapping, frame by frame: decides which landmark each sighting is
 /// of, corrects the filter by all of them at once, then adds what is new.
 ///
-/// Known identity: the pair must pass the 99 % gate; see GateMonitor for what happens when it does
-/// not. Unknown identity: two gates (Bailey et al., IROS 2006). The nearest landmark is matched
+/// Known identity: the pair must pass a gate at d^2 = 25; see GateMonitor for what happens when it
+/// does not. Unknown identity: two gates (Bailey et al., IROS 2006). The nearest landmark is matched
 /// below the 99 % quantile; a landmark is begun only if the nearest is beyond d^2 = 25; between the
 /// two a sighting is ignored.
 class Slam {
