@@ -26,11 +26,11 @@ void for_each_near_pixel(const DepthImage& depth, const DisparityTable& table,
 }
 
 SurfacePlane plane_near(double u_px, double v_px, const DepthImage& depth,
-                        const DisparityTable& table, const std::vector<EdgePixel>& pixels,
+                        const DisparityTable& table, std::span<const EdgePixel> chain,
                         const SurfacePlane* trimmed_about) {
   constexpr double kTrim_parts = 1.5 * DisparityTable::kPartsPerQuantum;
   SurfacePlane plane(u_px, v_px);
-  for (const EdgePixel& pixel : pixels) {
+  for (const EdgePixel& pixel : chain) {
     for_each_near_pixel(depth, table, pixel, [&](int u, int v, double parts) {
       if (trimmed_about && std::abs(trimmed_about->at(u, v) - parts) > kTrim_parts) return;
       plane.add(u, v, parts);
@@ -53,12 +53,25 @@ Eigen::Matrix2d polar_covariance(const Eigen::Vector2d& p_robot_m, const Eigen::
   return 0.5 * (polar + polar.transpose());
 }
 
-double mean_step_m(const DisparityTable& table, const std::vector<EdgePixel>& pixels) {
+double mean_step_m(const DisparityTable& table, std::span<const EdgePixel> chain) {
   double sum_m = 0.0;
-  for (const EdgePixel& pixel : pixels) {
+  for (const EdgePixel& pixel : chain) {
     sum_m += table.depth_m(pixel.far_steps) - table.depth_m(pixel.near_steps);
   }
-  return sum_m / static_cast<double>(pixels.size());
+  return sum_m / static_cast<double>(chain.size());
+}
+
+ChromaSignature near_color(const ColorAtDepth& color_at_depth, const ColorWeightParams& params,
+                           std::span<const EdgePixel> chain) {
+  SurfaceColor color(params.dark_luma_levels, params.noise_levels);
+  if (!color_at_depth.available()) return color.signature();
+  constexpr int kInside_px = 3;  // registration and the lens blur the border by a pixel or two
+  for (const EdgePixel& pixel : chain) {
+    for (int k = kInside_px; k < pixel.near_run_px; ++k) {
+      color.add(color_at_depth.rgb(pixel.u_px + k * pixel.inward_px(), pixel.v_px));
+    }
+  }
+  return color.signature();
 }
 
 bool all_finite(const Landmark& landmark) {
@@ -81,20 +94,18 @@ struct ChainEstimator::Lines {
 };
 
 void ChainEstimator::reserve(int height_px) {
-  pixels_.reserve(static_cast<std::size_t>(height_px));
   points_.reserve(static_cast<std::size_t>(height_px));
 }
 
-std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene, const EdgeChain& chain,
+std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene,
+                                                     std::span<const EdgePixel> chain,
                                                      const ChainEstimateParams& params,
                                                      Landmark& landmark) {
-  const double row_scale = scene.depth.height_px / 480.0;
-  if (chain.rows < std::max(3.0, params.rows_min_px * row_scale)) {
-    return RejectReason::kChainTooFewRows;
-  }
-  collect(scene, chain);
-  const std::optional<Middle> middle = find_middle(scene);
-  if (!middle || !place_points(scene, *middle)) return RejectReason::kLandmarkUnfit;
+  const double rows = static_cast<double>(chain.size());
+  const double rows_min = std::max(3.0, params.rows_min_px * scene.depth.height_px / 480.0);
+  if (rows < rows_min) return RejectReason::kChainTooFewRows;
+  const std::optional<Middle> middle = find_middle(scene, chain);
+  if (!middle || !place_points(scene, chain, *middle)) return RejectReason::kLandmarkUnfit;
 
   const Lines all = fit_lines();
   const double pixel_m = all.along_m.mean_y() / scene.camera.fx_px;
@@ -105,62 +116,69 @@ std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene, const E
   }
   trim(all, pixel_m);
   const Lines lines = fit_lines();
-  const double z_m = lines.along_m.mean_y();
+  const double quantum_m = scene.table.quantum_m(lines.along_m.mean_y());
   const double depth_sigma_m =
-      params.depth_noise_quanta * scene.table.quantum_m(z_m) / std::sqrt(std::min(chain.rows, 9));
-  const double lean_noise = depth_sigma_m / std::sqrt(lines.along_m.variance_x() + 1e-12);
-  const double lean_max = std::tan(params.lean_max_rad);
-  if (!(std::abs(lines.lateral_m.slope()) < lean_max &&
-        std::abs(lines.along_m.slope()) < lean_max + 3.0 * lean_noise)) {
-    return RejectReason::kChainLeaning;
-  }
+      params.depth_noise_quanta * quantum_m / std::sqrt(std::min(rows, 9.0));
+  if (!is_vertical(lines, depth_sigma_m, params.lean_max_rad)) return RejectReason::kChainLeaning;
 
-  const Eigen::Vector2d left(-middle->forward.y(), middle->forward.x());
-  const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
-                                    lines.along_m.mean_y() * middle->forward +
-                                    lines.lateral_m.mean_y() * left;
-  const double along_variance_m2 =
-      depth_sigma_m * depth_sigma_m + params.depth_bias_m * params.depth_bias_m;
-  const double lateral_noise_m = params.lateral_noise_px * pixel_m;
-  const double lateral_variance_m2 =
-      lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m;
-  landmark.kind =
-      chain.side == EdgeSide::kLeft ? LandmarkKind::kEdgeLeft : LandmarkKind::kEdgeRight;
-  landmark.range_m = p_robot_m.norm();
-  landmark.bearing_rad = wrap_angle(std::atan2(p_robot_m.y(), p_robot_m.x()));
-  landmark.covariance =
-      polar_covariance(p_robot_m, middle->forward, along_variance_m2, lateral_variance_m2);
-  landmark.height_low_m = lines.height_low_m;
-  landmark.height_high_m = lines.height_high_m;
-  landmark.step_m = mean_step_m(scene.table, pixels_);
-  landmark.chroma = near_color(scene);
-  landmark.rows = chain.rows;
+  describe_position(scene, *middle, lines, depth_sigma_m, params, landmark);
+  describe_look(scene, chain, landmark);
   landmark.u_px = middle->u_px;
-  landmark.v_top_px = pixels_.back().v_px;
-  landmark.v_bottom_px = pixels_.front().v_px;
-  const double rows_score = chain.rows / (chain.rows + params.rows_min_px * row_scale);
-  const double step_score = landmark.step_m / (landmark.step_m + scene.table.quantum_m(z_m));
-  landmark.score_ratio = rows_score * step_score / (1.0 + column_rms_px * column_rms_px / 4.0);
+  const double raggedness = column_rms_px / 2.0;
+  landmark.score_ratio = rows / (rows + rows_min) *
+                         (landmark.step_m / (landmark.step_m + quantum_m)) /
+                         (1.0 + raggedness * raggedness);
   constexpr double kRangeMin_m = 1e-3;
   if (!all_finite(landmark) || landmark.range_m < kRangeMin_m) return RejectReason::kLandmarkUnfit;
   return std::nullopt;
 }
 
-void ChainEstimator::collect(const Scene& scene, const EdgeChain& chain) {
-  pixels_.clear();
-  for (std::int32_t i = chain.last_edge; i >= 0; i = scene.linker.previous(i)) {
-    pixels_.push_back(scene.edges[static_cast<std::size_t>(i)]);
-  }
+bool ChainEstimator::is_vertical(const Lines& lines, double depth_sigma_m, double lean_max_rad) {
+  // Depth noise alone tilts a short edge towards or away from the camera.
+  const double along_noise = depth_sigma_m / std::sqrt(lines.along_m.variance_x() + 1e-12);
+  const double lean_max = std::tan(lean_max_rad);
+  return std::abs(lines.lateral_m.slope()) < lean_max &&
+         std::abs(lines.along_m.slope()) < lean_max + 3.0 * along_noise;
 }
 
-std::optional<ChainEstimator::Middle> ChainEstimator::find_middle(const Scene& scene) const {
+void ChainEstimator::describe_position(const Scene& scene, const Middle& middle, const Lines& lines,
+                                       double depth_sigma_m, const ChainEstimateParams& params,
+                                       Landmark& landmark) {
+  const Eigen::Vector2d left(-middle.forward.y(), middle.forward.x());
+  const double z_m = lines.along_m.mean_y();
+  const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
+                                    z_m * middle.forward + lines.lateral_m.mean_y() * left;
+  const double lateral_noise_m = params.lateral_noise_px * z_m / scene.camera.fx_px;
+  landmark.range_m = p_robot_m.norm();
+  landmark.bearing_rad = wrap_angle(std::atan2(p_robot_m.y(), p_robot_m.x()));
+  landmark.covariance = polar_covariance(
+      p_robot_m, middle.forward,
+      depth_sigma_m * depth_sigma_m + params.depth_bias_m * params.depth_bias_m,
+      lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m);
+  landmark.height_low_m = lines.height_low_m;
+  landmark.height_high_m = lines.height_high_m;
+}
+
+void ChainEstimator::describe_look(const Scene& scene, std::span<const EdgePixel> chain,
+                                   Landmark& landmark) {
+  landmark.kind =
+      chain.front().side == EdgeSide::kLeft ? LandmarkKind::kEdgeLeft : LandmarkKind::kEdgeRight;
+  landmark.step_m = mean_step_m(scene.table, chain);
+  landmark.chroma = near_color(scene.color, scene.color_params, chain);
+  landmark.rows = static_cast<int>(chain.size());
+  landmark.v_top_px = chain.back().v_px;
+  landmark.v_bottom_px = chain.front().v_px;
+}
+
+std::optional<ChainEstimator::Middle> ChainEstimator::find_middle(
+    const Scene& scene, std::span<const EdgePixel> chain) {
   Middle middle{0.0, 0.0, {1.0, 0.0}};
-  for (const EdgePixel& pixel : pixels_) {
+  for (const EdgePixel& pixel : chain) {
     middle.u_px += edge_column_px(pixel);
     middle.v_px += pixel.v_px;
   }
-  middle.u_px /= static_cast<double>(pixels_.size());
-  middle.v_px /= static_cast<double>(pixels_.size());
+  middle.u_px /= static_cast<double>(chain.size());
+  middle.v_px /= static_cast<double>(chain.size());
   const Eigen::Vector3d ray_camera((middle.u_px - scene.camera.cx_px) / scene.camera.fx_px,
                                    (middle.v_px - scene.camera.cy_px) / scene.camera.fy_px, 1.0);
   const Eigen::Vector2d horizontal = (scene.T_robot_camera.linear() * ray_camera).head<2>();
@@ -171,9 +189,10 @@ std::optional<ChainEstimator::Middle> ChainEstimator::find_middle(const Scene& s
   return middle;
 }
 
-bool ChainEstimator::place_points(const Scene& scene, const Middle& middle) {
+bool ChainEstimator::place_points(const Scene& scene, std::span<const EdgePixel> chain,
+                                  const Middle& middle) {
   const auto fit = [&](const SurfacePlane* about) {
-    return plane_near(middle.u_px, middle.v_px, scene.depth, scene.table, pixels_, about);
+    return plane_near(middle.u_px, middle.v_px, scene.depth, scene.table, chain, about);
   };
   SurfacePlane rough = fit(nullptr);
   if (!rough.solve()) return false;
@@ -183,7 +202,7 @@ bool ChainEstimator::place_points(const Scene& scene, const Middle& middle) {
   const Eigen::Matrix3d rotation = scene.T_robot_camera.linear();
   const double camera_height_m = scene.T_robot_camera.translation().z();
   points_.clear();
-  for (const EdgePixel& pixel : pixels_) {
+  for (const EdgePixel& pixel : chain) {
     const double u = edge_column_px(pixel);
     const double quanta = plane.at(u, pixel.v_px) / DisparityTable::kPartsPerQuantum;
     if (!(quanta > 0.5)) return false;
@@ -224,18 +243,6 @@ void ChainEstimator::trim(const Lines& lines, double smallest_m) {
     const double error_m = point.lateral_m - lines.lateral_m.at(point.height_m);
     point.kept = std::abs(error_m) <= largest_m;
   }
-}
-
-ChromaSignature ChainEstimator::near_color(const Scene& scene) const {
-  SurfaceColor color(scene.color_params.dark_luma_levels, scene.color_params.noise_levels);
-  if (!scene.color.available()) return color.signature();
-  for (const EdgePixel& pixel : pixels_) {
-    // Well inside: registration and the lens blur the border by a pixel or two.
-    for (int k = 3; k < pixel.near_run_px; ++k) {
-      color.add(scene.color.rgb(pixel.u_px + k * pixel.inward_px(), pixel.v_px));
-    }
-  }
-  return color.signature();
 }
 
 }  // namespace roomwise

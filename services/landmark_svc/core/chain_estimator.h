@@ -1,12 +1,13 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/image/rgbd_frame.h"
 #include "services/landmark_svc/core/color_weight.h"
 #include "services/landmark_svc/core/disparity_table.h"
-#include "services/landmark_svc/core/edge_chains.h"
+#include "services/landmark_svc/core/edge_pixel.h"
 #include "services/landmark_svc/core/landmark.h"
 #include "services/landmark_svc/core/reject_counts.h"
 
@@ -43,13 +44,12 @@ class ChainEstimator {
     const DisparityTable& table;
     const ColorAtDepth& color;
     const ColorWeightParams& color_params;
-    const std::vector<EdgePixel>& edges;
-    const ChainLinker& linker;
   };
 
-  /// Writes `landmark` and returns nothing, or returns why `chain` is none. Allocates only if the
-  /// chain is longer than any before.
-  [[nodiscard]] std::optional<RejectReason> estimate(const Scene& scene, const EdgeChain& chain,
+  /// Writes `landmark` and returns nothing, or returns why `chain` (pixels of one side, rows
+  /// descending) is none. Allocates only if the chain is longer than any before.
+  [[nodiscard]] std::optional<RejectReason> estimate(const Scene& scene,
+                                                     std::span<const EdgePixel> chain,
                                                      const ChainEstimateParams& params,
                                                      Landmark& landmark);
 
@@ -73,14 +73,17 @@ class ChainEstimator {
   };
   struct Lines;
 
-  void collect(const Scene& scene, const EdgeChain& chain);
-  std::optional<Middle> find_middle(const Scene& scene) const;
-  bool place_points(const Scene& scene, const Middle& middle);
+  static std::optional<Middle> find_middle(const Scene& scene, std::span<const EdgePixel> chain);
+  static bool is_vertical(const Lines& lines, double depth_sigma_m, double lean_max_rad);
+  static void describe_position(const Scene& scene, const Middle& middle, const Lines& lines,
+                                double depth_sigma_m, const ChainEstimateParams& params,
+                                Landmark& landmark);
+  static void describe_look(const Scene& scene, std::span<const EdgePixel> chain,
+                            Landmark& landmark);
+  bool place_points(const Scene& scene, std::span<const EdgePixel> chain, const Middle& middle);
   Lines fit_lines() const;
   void trim(const Lines& lines, double smallest_m);
-  ChromaSignature near_color(const Scene& scene) const;
 
-  std::vector<EdgePixel> pixels_;
   std::vector<EdgePoint> points_;
 };
 

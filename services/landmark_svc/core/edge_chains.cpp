@@ -35,6 +35,14 @@ void ChainLinker::link(const std::vector<EdgePixel>& edges, const DisparityTable
   }
 }
 
+void ChainLinker::collect(const EdgeChain& chain, const std::vector<EdgePixel>& edges,
+                          std::vector<EdgePixel>& pixels) const {
+  pixels.clear();
+  for (std::int32_t i = chain.last_edge; i >= 0; i = previous_[static_cast<std::size_t>(i)]) {
+    pixels.push_back(edges[static_cast<std::size_t>(i)]);
+  }
+}
+
 std::int32_t ChainLinker::best_chain(const std::vector<EdgePixel>& edges, const EdgePixel& edge,
                                      const DisparityTable& table, const Reach& reach,
                                      const ChainParams& params) const {

@@ -71,18 +71,19 @@ void LandmarkDetector::find_edges(const RgbdFrame& frame) {
 }
 
 void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
-  linker_.link(edges_, table_, frame.depth.width_px, frame.depth.height_px, params_.chain);
-  const ChainEstimator::Scene scene{
-      frame.depth, frame.depth_camera, frame.T_robot_camera, table_, color_, params_.color, edges_,
-      linker_};
+  const DepthImage& depth = frame.depth;
+  linker_.link(edges_, table_, depth.width_px, depth.height_px, params_.chain);
+  const ChainEstimator::Scene scene{depth,  frame.depth_camera, frame.T_robot_camera, table_,
+                                    color_, params_.color};
+  const double bend_max_px = params_.chain.bend_max_px * depth.width_px / 640.0;
+  const auto rows_min =
+      static_cast<std::size_t>(params_.estimate.rows_min_px * depth.height_px / 480.0);
   landmarks_.clear();
   for (const EdgeChain& chain : linker_.chains()) {
-    Landmark landmark;
-    const auto reason = estimator_.estimate(scene, chain, params_.estimate, landmark);
-    if (reason) {
-      rejected_.add(*reason);
-    } else {
-      landmarks_.push_back(landmark);
+    linker_.collect(chain, edges_, chain_pixels_);
+    split_at_bends(chain_pixels_, bend_max_px, rows_min, pieces_);
+    for (const ChainPiece& piece : pieces_) {
+      try_chain(scene, std::span(chain_pixels_).subspan(piece.begin, piece.end - piece.begin));
     }
   }
   // Joining compares all with all, so no more than the budget could ever use go into it.
@@ -92,12 +93,26 @@ void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
   keep_best(landmarks_, budget, rejected_);
 }
 
+void LandmarkDetector::try_chain(const ChainEstimator::Scene& scene,
+                                 std::span<const EdgePixel> chain) {
+  Landmark landmark;
+  const auto reason = estimator_.estimate(scene, chain, params_.estimate, landmark);
+  if (reason) {
+    rejected_.add(*reason);
+  } else {
+    landmarks_.push_back(landmark);
+  }
+}
+
 void LandmarkDetector::reserve(const DepthImage& depth) {
   // No pixel is an edge twice. Untouched memory costs nothing.
   if (edges_.capacity() >= depth.size()) return;
+  const auto rows = static_cast<std::size_t>(depth.height_px);
   edges_.reserve(depth.size());
   linker_.reserve(depth.size(), depth.width_px);
   estimator_.reserve(depth.height_px);
+  chain_pixels_.reserve(rows);
+  pieces_.reserve(rows);
   landmarks_.reserve(depth.size() / 3 + 1);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "common/image/rgbd_frame.h"
 #include "services/landmark_svc/core/chain_estimator.h"
+#include "services/landmark_svc/core/chain_split.h"
 #include "services/landmark_svc/core/color_weight.h"
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/edge_chains.h"
@@ -25,9 +27,10 @@ enum class [[nodiscard]] DetectResult{
 /// From one frame to its vertical-edge landmarks, O(pixels).
 ///
 /// Edge pixels (JumpEdgeFinder, or SlopeEdgeFinder for method "thesis") are chained down the image
-/// (ChainLinker), chains become landmarks (ChainEstimator), pieces of one edge are joined. Every
-/// frame stands alone: nothing is carried over but memory. Holds no clock, draws no random
-/// numbers: the same frame gives the same bits. Allocates nothing after the first frame of a size.
+/// (ChainLinker), cut where they bend, made landmarks of (ChainEstimator), and pieces of one edge
+/// are joined. Every frame stands alone: nothing is carried over but memory. Holds no clock, draws
+/// no random numbers: the same frame gives the same bits. Allocates nothing after the first frame
+/// of a size.
 class LandmarkDetector {
  public:
   /// Throws std::runtime_error if a range or the two brightness limits are the wrong way round.
@@ -53,6 +56,7 @@ class LandmarkDetector {
  private:
   void reserve(const DepthImage& depth);
   void find_landmarks(const RgbdFrame& frame);
+  void try_chain(const ChainEstimator::Scene& scene, std::span<const EdgePixel> chain);
 
   LandmarkParams params_;
   DisparityTable table_;
@@ -63,6 +67,8 @@ class LandmarkDetector {
   ChainEstimator estimator_;
   double alpha_ratio_ = 0.0;
   std::vector<EdgePixel> edges_;
+  std::vector<EdgePixel> chain_pixels_;
+  std::vector<ChainPiece> pieces_;
   std::vector<Landmark> landmarks_;
   RejectCounts rejected_;
 };

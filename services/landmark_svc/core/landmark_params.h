@@ -64,6 +64,7 @@ struct LandmarkParams {
     field("depth_step_m", chain.depth_step_m, 0.0, 1.0);
     field("depth_step_per_m_m2", chain.depth_step_per_m_m2, 0.0, 1.0);
     field("row_gap_max_px", chain.row_gap_max_px, 0, 100);
+    field("bend_max_px", chain.bend_max_px, 0.5, 64.0);
     field("rows_min_px", estimate.rows_min_px, 3.0, 480.0);
     field("height_span_min_m", estimate.height_span_min_m, 0.0, 3.0);
     field("column_rms_max_px", estimate.column_rms_max_px, 0.1, 100.0);
