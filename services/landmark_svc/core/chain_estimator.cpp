@@ -8,7 +8,7 @@
 #include "services/landmark_svc/core/surface_color.h"
 #include "services/landmark_svc/core/surface_plane.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 namespace {
 
 /// Column of the edge line itself: the outer border of the near pixel.
@@ -245,4 +245,4 @@ void ChainEstimator::trim(const Lines& lines, double smallest_m) {
   }
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -11,7 +11,7 @@
 #include "services/landmark_svc/core/landmark.h"
 #include "services/landmark_svc/core/reject_counts.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// What a chain must be to become a landmark, and how sure its position is.
 struct ChainEstimateParams {
@@ -87,4 +87,4 @@ class ChainEstimator {
   std::vector<EdgePoint> points_;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

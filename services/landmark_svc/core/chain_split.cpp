@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomwise {
+namespace roomwise::landmark {
 namespace {
 
 struct Bend {
@@ -47,4 +47,4 @@ void split_at_bends(std::span<const EdgePixel> chain, double bend_max_px, std::s
   }
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

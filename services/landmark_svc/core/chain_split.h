@@ -5,7 +5,7 @@
 
 #include "services/landmark_svc/core/edge_pixel.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Pixels [begin, end) of a chain.
 struct ChainPiece {
@@ -23,4 +23,4 @@ struct ChainPiece {
 void split_at_bends(std::span<const EdgePixel> chain, double bend_max_px, std::size_t rows_min,
                     std::vector<ChainPiece>& pieces);
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 double mean_luma_levels(const ColorImage& color) {
   constexpr std::size_t kStride = 16;  // every 16th pixel says enough about a mean
@@ -49,4 +49,4 @@ double ColorAtDepth::distance_levels(int u1_px, int v1_px, int u2_px, int v2_px)
   return std::sqrt(static_cast<double>(sum));
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -4,7 +4,7 @@
 
 #include "common/image/rgbd_frame.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// How much colour counts beside depth.
 struct ColorWeightParams {
@@ -52,4 +52,4 @@ class ColorAtDepth {
   std::vector<std::size_t> column_offset_;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

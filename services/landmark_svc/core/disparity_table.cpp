@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 void DisparityTable::prepare(double unit_m, double quanta_m) {
   if (unit_m == unit_m_ && quanta_m == quanta_m_) return;
@@ -28,4 +28,4 @@ std::uint16_t DisparityTable::steps_from_m(double length_m) const {
   return static_cast<std::uint16_t>(std::clamp(steps, 1.0, 65535.0));
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

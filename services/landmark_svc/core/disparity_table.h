@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// From a depth step to the disparity a Kinect-class camera measured.
 ///
@@ -55,4 +55,4 @@ class DisparityTable {
   std::vector<std::uint16_t> parts_;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 void ChainLinker::reserve(std::size_t edges, int width_px) {
   chains_.reserve(edges);
@@ -70,4 +70,4 @@ std::int32_t ChainLinker::best_chain(const std::vector<EdgePixel>& edges, const 
   return best;
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -5,7 +5,7 @@
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/edge_pixel.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// How edge pixels of successive rows are taken for one edge.
 struct ChainParams {
@@ -61,4 +61,4 @@ class ChainLinker {
   std::vector<std::int32_t> chain_at_column_[2];  ///< newest chain to end at a column, per side
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Which end of the nearer surface an edge is, as the camera sees it.
 enum class EdgeSide : std::uint8_t { kLeft, kRight };
@@ -24,4 +24,4 @@ struct EdgePixel {
 
 inline constexpr int kNearRunMax_px = 8;
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

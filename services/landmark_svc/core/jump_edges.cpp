@@ -8,7 +8,7 @@
 
 #include "common/multiversion.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 namespace {
 
 constexpr int kWord = 8;
@@ -179,4 +179,4 @@ void JumpEdgeFinder::find(const DepthImage& depth, const DisparityTable& table,
   }
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

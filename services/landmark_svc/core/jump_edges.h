@@ -8,7 +8,7 @@
 #include "services/landmark_svc/core/region_of_interest.h"
 #include "services/landmark_svc/core/reject_counts.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// What counts as a depth jump.
 struct JumpEdgeParams {
@@ -43,4 +43,4 @@ class JumpEdgeFinder {
   std::vector<std::uint8_t> changes_;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Which physical thing a landmark is; the values are those of landmark_observation_t.
 enum class LandmarkKind : std::int8_t { kEdgeLeft = 1, kEdgeRight = 2 };
@@ -35,4 +35,4 @@ struct Landmark {
   double v_bottom_px = 0.0;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -5,7 +5,7 @@
 
 #include "services/landmark_svc/core/landmark_pieces.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 namespace {
 
 constexpr int kSideMax_px = 4096;
@@ -116,4 +116,4 @@ void LandmarkDetector::reserve(const DepthImage& depth) {
   landmarks_.reserve(depth.size() / 3 + 1);
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -14,7 +14,7 @@
 #include "services/landmark_svc/core/reject_counts.h"
 #include "services/landmark_svc/core/slope_edges.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 enum class [[nodiscard]] DetectResult{
     kOk,
@@ -73,4 +73,4 @@ class LandmarkDetector {
   RejectCounts rejected_;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -9,7 +9,7 @@
 #include "services/landmark_svc/core/region_of_interest.h"
 #include "services/landmark_svc/core/slope_edges.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Tuning of the landmark detector; services/landmark_svc/params.toml may override any field.
 struct LandmarkParams {
@@ -76,4 +76,4 @@ struct LandmarkParams {
   }
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

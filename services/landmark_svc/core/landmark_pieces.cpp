@@ -6,7 +6,7 @@
 
 #include "common/geometry/angle.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 namespace {
 
 bool are_one_edge(const Landmark& a, const Landmark& b, double gate_mahalanobis_sq) {
@@ -77,4 +77,4 @@ void keep_best(std::vector<Landmark>& landmarks, std::size_t most, RejectCounts&
   });
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

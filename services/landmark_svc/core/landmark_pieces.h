@@ -5,7 +5,7 @@
 #include "services/landmark_svc/core/landmark.h"
 #include "services/landmark_svc/core/reject_counts.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Joins landmarks that are pieces of one physical edge: same kind and positions that differ by
 /// less than chance (squared Mahalanobis distance < `gate_mahalanobis_sq`). Pieces one above the
@@ -17,4 +17,4 @@ void join_pieces(std::vector<Landmark>& landmarks, double gate_mahalanobis_sq,
 /// Keeps the `most` best scored landmarks, then orders them from left to right.
 void keep_best(std::vector<Landmark>& landmarks, std::size_t most, RejectCounts& rejected);
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Least-squares line y = mean_y + slope (x - mean_x), from weighted sums. Add points in a fixed
 /// order and the result is the same to the bit.
@@ -42,4 +42,4 @@ class LineFit {
   double xy_ = 0.0;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 PixelRectangle region_of_interest(const RegionParams& params, int width_px, int height_px) {
   PixelRectangle region{0, 0, width_px, height_px};
@@ -21,4 +21,4 @@ PixelRectangle region_of_interest(const RegionParams& params, int width_px, int 
   return region;
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

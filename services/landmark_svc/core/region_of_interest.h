@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Columns [u_begin, u_end) and rows [v_begin, v_end) of an image; empty where begin >= end.
 struct PixelRectangle {
@@ -27,4 +27,4 @@ struct RegionParams {
 /// The rectangle `params` names in an image of this size, inside the image, perhaps empty.
 PixelRectangle region_of_interest(const RegionParams& params, int width_px, int height_px);
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Why something that looked like an edge or a landmark was not taken for one.
 enum class RejectReason : std::uint8_t {
@@ -42,4 +42,4 @@ class RejectCounts {
   std::array<std::int64_t, kRejectReasons> counts_{};
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace roomwise {
+namespace roomwise::landmark {
 namespace {
 
 constexpr double kSqrt6 = 2.449489742783178;
@@ -103,4 +103,4 @@ void SlopeEdgeFinder::find(const DepthImage& depth, const DisparityTable& table,
   }
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

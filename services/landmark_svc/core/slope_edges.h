@@ -8,7 +8,7 @@
 #include "services/landmark_svc/core/region_of_interest.h"
 #include "services/landmark_svc/core/reject_counts.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// The slope-difference detector's knobs.
 struct SlopeEdgeParams {
@@ -40,4 +40,4 @@ class SlopeEdgeFinder {
             std::vector<EdgePixel>& edges, RejectCounts& rejected) const;
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 void SurfaceColor::add(const std::uint8_t* rgb) {
   constexpr int kSaturated = 250;
@@ -41,4 +41,4 @@ double SurfaceColor::relative_variance(int channel, double n_independent) const 
   return (std::max(spread, 0.0) + noise_levels_ * noise_levels_) / (n_independent * mean * mean);
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

@@ -3,7 +3,7 @@
 
 #include "services/landmark_svc/core/landmark.h"
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Gathers pixels of one surface into its chroma signature. The logarithm of a ratio of channels
 /// does not change with the brightness of the light.
@@ -34,4 +34,4 @@ class SurfaceColor {
   std::int64_t sum_of_squares_[3] = {0, 0, 0};
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

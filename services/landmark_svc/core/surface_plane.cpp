@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 void SurfacePlane::add(double u_px, double v_px, double disparity) {
   const Eigen::Vector3d row(1.0, u_px - u0_px_, v_px - v0_px_);
@@ -21,4 +21,4 @@ bool SurfacePlane::solve() {
   return plane_.allFinite();
 }
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark

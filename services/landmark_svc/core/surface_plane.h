@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace roomwise {
+namespace roomwise::landmark {
 
 /// Least-squares plane through disparities of an image patch, D = a + s_u u + s_v v: exact for any
 /// plane in space, whatever its slant.
@@ -29,4 +29,4 @@ class SurfacePlane {
   Eigen::Vector3d plane_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace roomwise
+}  // namespace roomwise::landmark
