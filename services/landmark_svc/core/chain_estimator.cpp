@@ -1,0 +1,248 @@
+#include "services/landmark_svc/core/chain_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/angle.h"
+#include "services/landmark_svc/core/line_fit.h"
+#include "services/landmark_svc/core/surface_color.h"
+#include "services/landmark_svc/core/surface_plane.h"
+
+namespace roomwise::landmark {
+namespace {
+
+/// Column of the edge line itself: the outer border of the near pixel.
+double edge_column_px(const EdgePixel& edge) { return edge.u_px - 0.5 * edge.inward_px(); }
+
+/// Calls sample(u, v, disparity parts) for the near surface of `edge`. The near pixel itself, often
+/// a mixture of both surfaces, serves only where there is no other.
+template <class Sample>
+void for_each_near_pixel(const DepthImage& depth, const DisparityTable& table,
+                         const EdgePixel& edge, Sample sample) {
+  for (int k = edge.near_run_px > 1 ? 1 : 0; k < edge.near_run_px; ++k) {
+    const int u = edge.u_px + k * edge.inward_px();
+    sample(u, edge.v_px, static_cast<double>(table.parts(depth.at(u, edge.v_px))));
+  }
+}
+
+SurfacePlane plane_near(double u_px, double v_px, const DepthImage& depth,
+                        const DisparityTable& table, std::span<const EdgePixel> chain,
+                        const SurfacePlane* trimmed_about) {
+  constexpr double kTrim_parts = 1.5 * DisparityTable::kPartsPerQuantum;
+  SurfacePlane plane(u_px, v_px);
+  for (const EdgePixel& pixel : chain) {
+    for_each_near_pixel(depth, table, pixel, [&](int u, int v, double parts) {
+      if (trimmed_about && std::abs(trimmed_about->at(u, v) - parts) > kTrim_parts) return;
+      plane.add(u, v, parts);
+    });
+  }
+  return plane;
+}
+
+/// Covariance of (range, bearing) from sigmas along and across the camera's viewing direction.
+Eigen::Matrix2d polar_covariance(const Eigen::Vector2d& p_robot_m, const Eigen::Vector2d& forward,
+                                 double along_variance_m2, double lateral_variance_m2) {
+  const Eigen::Vector2d left(-forward.y(), forward.x());
+  const Eigen::Matrix2d cartesian = along_variance_m2 * forward * forward.transpose() +
+                                    lateral_variance_m2 * left * left.transpose();
+  const double range_m = p_robot_m.norm();
+  const Eigen::Vector2d toward = p_robot_m / range_m;
+  Eigen::Matrix2d jacobian;
+  jacobian << toward.x(), toward.y(), -toward.y() / range_m, toward.x() / range_m;
+  const Eigen::Matrix2d polar = jacobian * cartesian * jacobian.transpose();
+  return 0.5 * (polar + polar.transpose());
+}
+
+double mean_step_m(const DisparityTable& table, std::span<const EdgePixel> chain) {
+  double sum_m = 0.0;
+  for (const EdgePixel& pixel : chain) {
+    sum_m += table.depth_m(pixel.far_steps) - table.depth_m(pixel.near_steps);
+  }
+  return sum_m / static_cast<double>(chain.size());
+}
+
+ChromaSignature near_color(const ColorAtDepth& color_at_depth, const ColorWeightParams& params,
+                           std::span<const EdgePixel> chain) {
+  SurfaceColor color(params.dark_luma_levels, params.noise_levels);
+  if (!color_at_depth.available()) return color.signature();
+  constexpr int kInside_px = 3;  // registration and the lens blur the border by a pixel or two
+  for (const EdgePixel& pixel : chain) {
+    for (int k = kInside_px; k < pixel.near_run_px; ++k) {
+      color.add(color_at_depth.rgb(pixel.u_px + k * pixel.inward_px(), pixel.v_px));
+    }
+  }
+  return color.signature();
+}
+
+bool all_finite(const Landmark& landmark) {
+  return std::isfinite(landmark.range_m) && std::isfinite(landmark.bearing_rad) &&
+         landmark.covariance.allFinite() && std::isfinite(landmark.height_low_m) &&
+         std::isfinite(landmark.height_high_m);
+}
+
+}  // namespace
+
+/// Lateral and along-ray position of the edge against height.
+struct ChainEstimator::Lines {
+  LineFit lateral_m;
+  LineFit along_m;
+  double height_low_m = 0.0;
+  double height_high_m = 0.0;
+  double lateral_rms_m = 0.0;  ///< of all points about the lateral line, kept or not
+
+  double height_span_m() const { return height_high_m - height_low_m; }
+};
+
+void ChainEstimator::reserve(int height_px) {
+  points_.reserve(static_cast<std::size_t>(height_px));
+}
+
+std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene,
+                                                     std::span<const EdgePixel> chain,
+                                                     const ChainEstimateParams& params,
+                                                     Landmark& landmark) {
+  const double rows = static_cast<double>(chain.size());
+  const double rows_min = std::max(3.0, params.rows_min_px * scene.depth.height_px / 480.0);
+  if (rows < rows_min) return RejectReason::kChainTooFewRows;
+  const std::optional<Middle> middle = find_middle(scene, chain);
+  if (!middle || !place_points(scene, chain, *middle)) return RejectReason::kLandmarkUnfit;
+
+  const Lines all = fit_lines();
+  const double pixel_m = all.along_m.mean_y() / scene.camera.fx_px;
+  const double column_rms_px = all.lateral_rms_m / pixel_m;
+  if (all.height_span_m() < params.height_span_min_m) return RejectReason::kChainTooLow;
+  if (!(column_rms_px < params.column_rms_max_px * scene.depth.width_px / 640.0)) {
+    return RejectReason::kChainTooRagged;
+  }
+  trim(all, pixel_m);
+  const Lines lines = fit_lines();
+  const double quantum_m = scene.table.quantum_m(lines.along_m.mean_y());
+  const double depth_sigma_m =
+      params.depth_noise_quanta * quantum_m / std::sqrt(std::min(rows, 9.0));
+  if (!is_vertical(lines, depth_sigma_m, params.lean_max_rad)) return RejectReason::kChainLeaning;
+
+  describe_position(scene, *middle, lines, depth_sigma_m, params, landmark);
+  describe_look(scene, chain, landmark);
+  landmark.u_px = middle->u_px;
+  const double raggedness = column_rms_px / 2.0;
+  landmark.score_ratio = rows / (rows + rows_min) *
+                         (landmark.step_m / (landmark.step_m + quantum_m)) /
+                         (1.0 + raggedness * raggedness);
+  constexpr double kRangeMin_m = 1e-3;
+  if (!all_finite(landmark) || landmark.range_m < kRangeMin_m) return RejectReason::kLandmarkUnfit;
+  return std::nullopt;
+}
+
+bool ChainEstimator::is_vertical(const Lines& lines, double depth_sigma_m, double lean_max_rad) {
+  // Depth noise alone tilts a short edge towards or away from the camera.
+  const double along_noise = depth_sigma_m / std::sqrt(lines.along_m.variance_x() + 1e-12);
+  const double lean_max = std::tan(lean_max_rad);
+  return std::abs(lines.lateral_m.slope()) < lean_max &&
+         std::abs(lines.along_m.slope()) < lean_max + 3.0 * along_noise;
+}
+
+void ChainEstimator::describe_position(const Scene& scene, const Middle& middle, const Lines& lines,
+                                       double depth_sigma_m, const ChainEstimateParams& params,
+                                       Landmark& landmark) {
+  const Eigen::Vector2d left(-middle.forward.y(), middle.forward.x());
+  const double z_m = lines.along_m.mean_y();
+  const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
+                                    z_m * middle.forward + lines.lateral_m.mean_y() * left;
+  const double lateral_noise_m = params.lateral_noise_px * z_m / scene.camera.fx_px;
+  landmark.range_m = p_robot_m.norm();
+  landmark.bearing_rad = wrap_angle(std::atan2(p_robot_m.y(), p_robot_m.x()));
+  landmark.covariance = polar_covariance(
+      p_robot_m, middle.forward,
+      depth_sigma_m * depth_sigma_m + params.depth_bias_m * params.depth_bias_m,
+      lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m);
+  landmark.height_low_m = lines.height_low_m;
+  landmark.height_high_m = lines.height_high_m;
+}
+
+void ChainEstimator::describe_look(const Scene& scene, std::span<const EdgePixel> chain,
+                                   Landmark& landmark) {
+  landmark.kind =
+      chain.front().side == EdgeSide::kLeft ? LandmarkKind::kEdgeLeft : LandmarkKind::kEdgeRight;
+  landmark.step_m = mean_step_m(scene.table, chain);
+  landmark.chroma = near_color(scene.color, scene.color_params, chain);
+  landmark.rows = static_cast<int>(chain.size());
+  landmark.v_top_px = chain.back().v_px;
+  landmark.v_bottom_px = chain.front().v_px;
+}
+
+std::optional<ChainEstimator::Middle> ChainEstimator::find_middle(
+    const Scene& scene, std::span<const EdgePixel> chain) {
+  Middle middle{0.0, 0.0, {1.0, 0.0}};
+  for (const EdgePixel& pixel : chain) {
+    middle.u_px += edge_column_px(pixel);
+    middle.v_px += pixel.v_px;
+  }
+  middle.u_px /= static_cast<double>(chain.size());
+  middle.v_px /= static_cast<double>(chain.size());
+  const Eigen::Vector3d ray_camera((middle.u_px - scene.camera.cx_px) / scene.camera.fx_px,
+                                   (middle.v_px - scene.camera.cy_px) / scene.camera.fy_px, 1.0);
+  const Eigen::Vector2d horizontal = (scene.T_robot_camera.linear() * ray_camera).head<2>();
+  const double length = horizontal.norm();
+  constexpr double kSteepest = 0.1;  // a camera that looks straight down sees no vertical edges
+  if (!std::isfinite(length) || length < kSteepest) return std::nullopt;
+  middle.forward = horizontal / length;
+  return middle;
+}
+
+bool ChainEstimator::place_points(const Scene& scene, std::span<const EdgePixel> chain,
+                                  const Middle& middle) {
+  const auto fit = [&](const SurfacePlane* about) {
+    return plane_near(middle.u_px, middle.v_px, scene.depth, scene.table, chain, about);
+  };
+  SurfacePlane rough = fit(nullptr);
+  if (!rough.solve()) return false;
+  SurfacePlane plane = fit(&rough);
+  if (!plane.solve()) plane = rough;
+
+  const Eigen::Matrix3d rotation = scene.T_robot_camera.linear();
+  const double camera_height_m = scene.T_robot_camera.translation().z();
+  points_.clear();
+  for (const EdgePixel& pixel : chain) {
+    const double u = edge_column_px(pixel);
+    const double quanta = plane.at(u, pixel.v_px) / DisparityTable::kPartsPerQuantum;
+    if (!(quanta > 0.5)) return false;
+    const Eigen::Vector3d ray_camera((u - scene.camera.cx_px) / scene.camera.fx_px,
+                                     (pixel.v_px - scene.camera.cy_px) / scene.camera.fy_px, 1.0);
+    const Eigen::Vector3d p_m = rotation * ray_camera * scene.table.depth_from_quanta_m(quanta);
+    points_.push_back({.along_m = middle.forward.dot(p_m.head<2>()),
+                       .lateral_m = middle.forward.x() * p_m.y() - middle.forward.y() * p_m.x(),
+                       .height_m = camera_height_m + p_m.z(),
+                       .kept = true});
+  }
+  return true;
+}
+
+ChainEstimator::Lines ChainEstimator::fit_lines() const {
+  Lines lines;
+  lines.height_low_m = points_.front().height_m;
+  lines.height_high_m = points_.front().height_m;
+  for (const EdgePoint& point : points_) {
+    lines.height_low_m = std::min(lines.height_low_m, point.height_m);
+    lines.height_high_m = std::max(lines.height_high_m, point.height_m);
+    if (!point.kept) continue;
+    lines.lateral_m.add(point.height_m, point.lateral_m);
+    lines.along_m.add(point.height_m, point.along_m);
+  }
+  double squares_m2 = 0.0;
+  for (const EdgePoint& point : points_) {
+    const double error_m = point.lateral_m - lines.lateral_m.at(point.height_m);
+    squares_m2 += error_m * error_m;
+  }
+  lines.lateral_rms_m = std::sqrt(squares_m2 / static_cast<double>(points_.size()));
+  return lines;
+}
+
+void ChainEstimator::trim(const Lines& lines, double smallest_m) {
+  const double largest_m = std::max(smallest_m, 2.0 * lines.lateral_rms_m);
+  for (EdgePoint& point : points_) {
+    const double error_m = point.lateral_m - lines.lateral_m.at(point.height_m);
+    point.kept = std::abs(error_m) <= largest_m;
+  }
+}
+
+}  // namespace roomwise::landmark

@@ -1,0 +1,90 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/image/rgbd_frame.h"
+#include "services/landmark_svc/core/color_weight.h"
+#include "services/landmark_svc/core/disparity_table.h"
+#include "services/landmark_svc/core/edge_pixel.h"
+#include "services/landmark_svc/core/landmark.h"
+#include "services/landmark_svc/core/reject_counts.h"
+
+namespace roomwise::landmark {
+
+/// What a chain must be to become a landmark, and how sure its position is.
+struct ChainEstimateParams {
+  double rows_min_px = 18.0;  ///< at 480 px image height
+  double height_span_min_m = 0.15;
+  double column_rms_max_px = 3.0;   ///< about its line, at 640 px image width
+  double lean_max_rad = 0.14;       ///< from the vertical
+  double lateral_noise_px = 1.0;    ///< sigma of an edge's column
+  double lateral_bias_m = 0.01;     ///< sigma of what repeats from row to row
+  double depth_noise_quanta = 1.0;  ///< sigma of one row's depth
+  double depth_bias_m = 0.015;
+};
+
+/// Turns chains of edge pixels into landmarks.
+///
+/// The near surface's disparity is fitted as a plane in the image (up to 8 pixels deep from the
+/// edge, trimmed once) and extended to the edge line, half a pixel outside the near pixels. Each
+/// row then gives a point; lateral and along-ray position against height are fitted as lines,
+/// trimmed once. Their means are the landmark, their slopes its lean, the scatter its raggedness.
+/// Position sigmas, from which the range-bearing covariance follows by its Jacobian:
+///   lateral^2 = (lateral_noise_px z / f)^2 + lateral_bias_m^2
+///   along^2   = (depth_noise z^2 / (8 f b))^2 / min(rows, 9) + depth_bias_m^2
+class ChainEstimator {
+ public:
+  /// Everything of a frame an estimate needs; must outlive the calls.
+  struct Scene {
+    const DepthImage& depth;
+    const PinholeCamera& camera;
+    const Eigen::Isometry3d& T_robot_camera;
+    const DisparityTable& table;
+    const ColorAtDepth& color;
+    const ColorWeightParams& color_params;
+  };
+
+  /// Writes `landmark` and returns nothing, or returns why `chain` (pixels of one side, rows
+  /// descending) is none. Allocates only if the chain is longer than any before.
+  [[nodiscard]] std::optional<RejectReason> estimate(const Scene& scene,
+                                                     std::span<const EdgePixel> chain,
+                                                     const ChainEstimateParams& params,
+                                                     Landmark& landmark);
+
+  /// Makes room for chains of an image of so many rows.
+  void reserve(int height_px);
+
+ private:
+  /// One row's point of the edge, relative to the camera: along the horizontal viewing direction,
+  /// to its left, and above the floor.
+  struct EdgePoint {
+    double along_m;
+    double lateral_m;
+    double height_m;
+    bool kept;
+  };
+  /// Where the chain is seen, before anything is fitted.
+  struct Middle {
+    double u_px;
+    double v_px;
+    Eigen::Vector2d forward;  ///< horizontal unit vector from the camera to it, robot frame
+  };
+  struct Lines;
+
+  static std::optional<Middle> find_middle(const Scene& scene, std::span<const EdgePixel> chain);
+  static bool is_vertical(const Lines& lines, double depth_sigma_m, double lean_max_rad);
+  static void describe_position(const Scene& scene, const Middle& middle, const Lines& lines,
+                                double depth_sigma_m, const ChainEstimateParams& params,
+                                Landmark& landmark);
+  static void describe_look(const Scene& scene, std::span<const EdgePixel> chain,
+                            Landmark& landmark);
+  bool place_points(const Scene& scene, std::span<const EdgePixel> chain, const Middle& middle);
+  Lines fit_lines() const;
+  void trim(const Lines& lines, double smallest_m);
+
+  std::vector<EdgePoint> points_;
+};
+
+}  // namespace roomwise::landmark

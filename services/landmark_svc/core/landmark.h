@@ -1,0 +1,38 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace roomwise::landmark {
+
+/// Which physical thing a landmark is; the values are those of landmark_observation_t.
+enum class LandmarkKind : std::int8_t { kEdgeLeft = 1, kEdgeRight = 2 };
+
+/// Colour of a surface apart from its brightness.
+struct ChromaSignature {
+  double red_log = 0.0;   ///< ln(R / G)
+  double blue_log = 0.0;  ///< ln(B / G)
+  /// Variance of either: kNoColorVariance_log2 where there is no colour or it is too dark to tell.
+  double variance_log2 = kNoColorVariance_log2;
+
+  static constexpr double kNoColorVariance_log2 = 1e6;
+};
+
+/// A vertical edge seen in one frame, as a point in the floor plane of the robot frame.
+struct Landmark {
+  LandmarkKind kind = LandmarkKind::kEdgeLeft;
+  double range_m = 0.0;      ///< > 0, from the robot frame's origin
+  double bearing_rad = 0.0;  ///< [-pi, pi), counter-clockwise from robot x
+  /// Of (range, bearing). Shape 2 x 2, [m^2, m rad; m rad, rad^2].
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  double height_low_m = 0.0;  ///< span seen, above the floor
+  double height_high_m = 0.0;
+  double step_m = 0.0;  ///< mean depth jump to what lies behind
+  ChromaSignature chroma;
+  double score_ratio = 0.0;  ///< [0, 1]
+  int rows = 0;              ///< image rows that support it
+  double u_px = 0.0;         ///< mean column of the edge line, half a pixel outside the near pixels
+  double v_top_px = 0.0;
+  double v_bottom_px = 0.0;
+};
+
+}  // namespace roomwise::landmark

@@ -1,0 +1,119 @@
+#include "services/landmark_svc/core/landmark_detector.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "services/landmark_svc/core/landmark_pieces.h"
+
+namespace roomwise::landmark {
+namespace {
+
+constexpr int kSideMax_px = 4096;
+
+bool has_side(int px) { return px >= 1 && px <= kSideMax_px; }
+
+DetectResult check(const RgbdFrame& frame) {
+  const DepthImage& depth = frame.depth;
+  if (!has_side(depth.width_px) || !has_side(depth.height_px) ||
+      depth.size() !=
+          static_cast<std::size_t>(depth.width_px) * static_cast<std::size_t>(depth.height_px)) {
+    return DetectResult::kBadImage;
+  }
+  if (!std::isfinite(depth.unit_m) || !(depth.unit_m > 0.0)) return DetectResult::kBadUnit;
+  const PinholeCamera& camera = frame.depth_camera;
+  if (!(camera.fx_px > 0.0 && camera.fy_px > 0.0) || !std::isfinite(camera.fx_px) ||
+      !std::isfinite(camera.fy_px) || !std::isfinite(camera.cx_px) ||
+      !std::isfinite(camera.cy_px)) {
+    return DetectResult::kBadCamera;
+  }
+  return frame.T_robot_camera.matrix().allFinite() ? DetectResult::kOk : DetectResult::kBadPose;
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::runtime_error(what);
+}
+
+}  // namespace
+
+LandmarkDetector::LandmarkDetector(const LandmarkParams& params) : params_(params) {
+  require(params.jump.range_min_m < params.jump.range_max_m,
+          "range_min_m must be smaller than range_max_m");
+  require(params.slope.range_min_m < params.slope.range_max_m,
+          "thesis_range_min_m must be smaller than thesis_range_max_m");
+  require(params.color.dark_luma_levels < params.color.light_luma_levels,
+          "dark_luma_levels must be smaller than light_luma_levels");
+}
+
+DetectResult LandmarkDetector::detect(const RgbdFrame& frame) {
+  const DetectResult result = check(frame);
+  if (result != DetectResult::kOk) return result;
+  find_edges(frame);
+  find_landmarks(frame);
+  return DetectResult::kOk;
+}
+
+void LandmarkDetector::find_edges(const RgbdFrame& frame) {
+  reserve(frame.depth);
+  table_.prepare(frame.depth.unit_m, params_.quanta_m());
+  color_.attach(frame);
+  edges_.clear();
+  rejected_.clear();
+  const PixelRectangle region =
+      region_of_interest(params_.region, frame.depth.width_px, frame.depth.height_px);
+  if (params_.is_thesis()) {
+    alpha_ratio_ =
+        color_.available() ? color_weight_ratio(params_.color, mean_luma_levels(frame.color)) : 0.0;
+    slope_finder_.find(frame.depth, table_, color_, region, params_.slope, params_.color,
+                       alpha_ratio_, edges_, rejected_);
+  } else {
+    jump_finder_.find(frame.depth, table_, region, params_.jump, edges_, rejected_);
+  }
+}
+
+void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
+  const DepthImage& depth = frame.depth;
+  linker_.link(edges_, table_, depth.width_px, depth.height_px, params_.chain);
+  const ChainEstimator::Scene scene{depth,  frame.depth_camera, frame.T_robot_camera, table_,
+                                    color_, params_.color};
+  const double bend_max_px = params_.chain.bend_max_px * depth.width_px / 640.0;
+  const auto rows_min =
+      static_cast<std::size_t>(params_.estimate.rows_min_px * depth.height_px / 480.0);
+  landmarks_.clear();
+  for (const EdgeChain& chain : linker_.chains()) {
+    linker_.collect(chain, edges_, chain_pixels_);
+    split_at_bends(chain_pixels_, bend_max_px, rows_min, pieces_);
+    for (const ChainPiece& piece : pieces_) {
+      try_chain(scene, std::span(chain_pixels_).subspan(piece.begin, piece.end - piece.begin));
+    }
+  }
+  // Joining compares all with all, so no more than the budget could ever use go into it.
+  const auto budget = static_cast<std::size_t>(params_.landmarks_max);
+  keep_best(landmarks_, 4 * budget, rejected_);
+  join_pieces(landmarks_, params_.join_gate_mahalanobis_sq, rejected_);
+  keep_best(landmarks_, budget, rejected_);
+}
+
+void LandmarkDetector::try_chain(const ChainEstimator::Scene& scene,
+                                 std::span<const EdgePixel> chain) {
+  Landmark landmark;
+  const auto reason = estimator_.estimate(scene, chain, params_.estimate, landmark);
+  if (reason) {
+    rejected_.add(*reason);
+  } else {
+    landmarks_.push_back(landmark);
+  }
+}
+
+void LandmarkDetector::reserve(const DepthImage& depth) {
+  // No pixel is an edge twice. Untouched memory costs nothing.
+  if (edges_.capacity() >= depth.size()) return;
+  const auto rows = static_cast<std::size_t>(depth.height_px);
+  edges_.reserve(depth.size());
+  linker_.reserve(depth.size(), depth.width_px);
+  estimator_.reserve(depth.height_px);
+  chain_pixels_.reserve(rows);
+  pieces_.reserve(rows);
+  landmarks_.reserve(depth.size() / 3 + 1);
+}
+
+}  // namespace roomwise::landmark

@@ -1,0 +1,79 @@
+#pragma once
+#include <numbers>
+#include <string>
+
+#include "services/landmark_svc/core/chain_estimator.h"
+#include "services/landmark_svc/core/color_weight.h"
+#include "services/landmark_svc/core/edge_chains.h"
+#include "services/landmark_svc/core/jump_edges.h"
+#include "services/landmark_svc/core/region_of_interest.h"
+#include "services/landmark_svc/core/slope_edges.h"
+
+namespace roomwise::landmark {
+
+/// Tuning of the landmark detector; services/landmark_svc/params.toml may override any field.
+struct LandmarkParams {
+  std::string method = "disparity";        ///< or "thesis": which pixels are edges
+  bool use_color = true;                   ///< false: colour is not even decoded
+  double baseline_m = 0.075;               ///< projector to camera
+  double disparity_focal_px = 585.0;       ///< focal length of the sensor's 640 px matching grid
+  int landmarks_max = 64;                  ///< a frame, best scored first
+  double join_gate_mahalanobis_sq = 9.21;  ///< chi-square, 2 degrees of freedom, 99 %
+  int edge_pixels_listed_max = 4000;       ///< in the message, evenly thinned; all are counted
+  RegionParams region;
+  JumpEdgeParams jump;
+  SlopeEdgeParams slope;
+  ColorWeightParams color;
+  ChainParams chain;
+  ChainEstimateParams estimate;
+
+  bool is_thesis() const { return method == "thesis"; }
+  /// 8 f b: disparity in quanta times depth in metres.
+  double quanta_m() const { return 8.0 * disparity_focal_px * baseline_m; }
+
+  template <class Field>
+  void visit_fields(Field&& field) {  // name, member, smallest, largest allowed
+    field("method", method, {"disparity", "thesis"});
+    field("use_color", use_color);
+    field("baseline_m", baseline_m, 0.01, 0.5);
+    field("disparity_focal_px", disparity_focal_px, 50.0, 5000.0);
+    field("landmarks_max", landmarks_max, 0, 200);
+    field("join_gate_mahalanobis_sq", join_gate_mahalanobis_sq, 0.0, 100.0);
+    field("edge_pixels_listed_max", edge_pixels_listed_max, 0, 8000);
+    field("region", region.region,
+          {"whole", "slice", "top_left", "top_right", "bottom_left", "bottom_right"});
+    field("slice_first_row_px", region.slice_first_row_px, 0, 4095);
+    field("slice_rows_px", region.slice_rows_px, 1, 4096);
+    field("drop_bottom_rows_px", region.drop_bottom_rows_px, 0, 4096);
+    field("jump_quanta", jump.jump_quanta, 1.0, 100.0);
+    field("jump_m", jump.jump_m, 0.005, 1.0);
+    field("gap_max_px", jump.gap_max_px, 0.0, 640.0);
+    field("gap_slope_quanta_px", jump.gap_slope_quanta_px, 0.0, 100.0);
+    field("near_run_px", jump.near_run_px, 2, kNearRunMax_px);
+    field("far_run_px", jump.far_run_px, 1, 100);
+    field("range_min_m", jump.range_min_m, 0.0, 4.095);
+    field("range_max_m", jump.range_max_m, 0.0, 4.095);
+    field("threshold_mm_per_px", slope.threshold_mm_per_px, 0.0, 10000.0);
+    field("thesis_range_min_m", slope.range_min_m, 0.0, 4.095);
+    field("thesis_range_max_m", slope.range_max_m, 0.0, 4.095);
+    field("alpha_max_ratio", color.alpha_max_ratio, 0.0, 1.0);
+    field("dark_luma_levels", color.dark_luma_levels, 0.0, 255.0);
+    field("light_luma_levels", color.light_luma_levels, 0.0, 255.0);
+    field("color_noise_levels", color.noise_levels, 0.1, 100.0);
+    field("column_step_max_px", chain.column_step_max_px, 0.0, 64.0);
+    field("depth_step_m", chain.depth_step_m, 0.0, 1.0);
+    field("depth_step_per_m_m2", chain.depth_step_per_m_m2, 0.0, 1.0);
+    field("row_gap_max_px", chain.row_gap_max_px, 0, 100);
+    field("bend_max_px", chain.bend_max_px, 0.5, 64.0);
+    field("rows_min_px", estimate.rows_min_px, 3.0, 480.0);
+    field("height_span_min_m", estimate.height_span_min_m, 0.0, 3.0);
+    field("column_rms_max_px", estimate.column_rms_max_px, 0.1, 100.0);
+    field("lean_max_rad", estimate.lean_max_rad, 0.0, std::numbers::pi / 4.0);
+    field("lateral_noise_px", estimate.lateral_noise_px, 0.01, 100.0);
+    field("lateral_bias_m", estimate.lateral_bias_m, 1e-4, 1.0);
+    field("depth_noise_quanta", estimate.depth_noise_quanta, 0.01, 100.0);
+    field("depth_bias_m", estimate.depth_bias_m, 1e-4, 1.0);
+  }
+};
+
+}  // namespace roomwise::landmark
