@@ -29,9 +29,8 @@ void fill_quality(const ekf::Estimator& estimator, const ekf::FrameResult& last_
                   pose_t& message) {
   const ekf::InnovationStatistics& innovation = estimator.filter().last_innovation();
   message.nis_dof = innovation.degrees_of_freedom;
-  message.nis_ratio = innovation.degrees_of_freedom > 0
-                          ? innovation.squared / innovation.degrees_of_freedom
-                          : 0.0;
+  message.nis_ratio =
+      innovation.degrees_of_freedom > 0 ? innovation.squared / innovation.degrees_of_freedom : 0.0;
   message.landmarks_in_map = static_cast<std::int32_t>(estimator.filter().landmark_count());
   message.landmarks_seen = last_frame.seen;
   message.landmarks_matched = last_frame.matched;

@@ -12,27 +12,42 @@ constexpr std::int64_t kMapPeriod_us = 1'000'000;
 
 constexpr const char* reason(ekf::OdometryVerdict verdict) {
   switch (verdict) {
-    case ekf::OdometryVerdict::kUsed: return "odometry_used";
-    case ekf::OdometryVerdict::kFirst: return "odometry_first";
-    case ekf::OdometryVerdict::kGap: return "odometry_gap";
-    case ekf::OdometryVerdict::kRestarted: return "odometry_clock_restarted";
-    case ekf::OdometryVerdict::kTimeInvalid: return "odometry_time_invalid";
-    case ekf::OdometryVerdict::kOutOfOrder: return "odometry_out_of_order";
-    case ekf::OdometryVerdict::kNotFinite: return "odometry_not_finite";
-    case ekf::OdometryVerdict::kTooFast: return "odometry_too_fast";
-    case ekf::OdometryVerdict::kCovarianceInvalid: return "odometry_covariance_invalid";
+    case ekf::OdometryVerdict::kUsed:
+      return "odometry_used";
+    case ekf::OdometryVerdict::kFirst:
+      return "odometry_first";
+    case ekf::OdometryVerdict::kGap:
+      return "odometry_gap";
+    case ekf::OdometryVerdict::kRestarted:
+      return "odometry_clock_restarted";
+    case ekf::OdometryVerdict::kTimeInvalid:
+      return "odometry_time_invalid";
+    case ekf::OdometryVerdict::kOutOfOrder:
+      return "odometry_out_of_order";
+    case ekf::OdometryVerdict::kNotFinite:
+      return "odometry_not_finite";
+    case ekf::OdometryVerdict::kTooFast:
+      return "odometry_too_fast";
+    case ekf::OdometryVerdict::kCovarianceInvalid:
+      return "odometry_covariance_invalid";
   }
   return "odometry_unknown";
 }
 
 constexpr const char* reason(ekf::FrameTiming timing) {
   switch (timing) {
-    case ekf::FrameTiming::kReady: return "frame_ready";
-    case ekf::FrameTiming::kWaits: return "frame_waits";
-    case ekf::FrameTiming::kNoOdometry: return "frame_before_odometry";
-    case ekf::FrameTiming::kDuplicate: return "frame_duplicate";
-    case ekf::FrameTiming::kLate: return "frame_late";
-    case ekf::FrameTiming::kAheadOfBelief: return "frame_ahead_of_odometry";
+    case ekf::FrameTiming::kReady:
+      return "frame_ready";
+    case ekf::FrameTiming::kWaits:
+      return "frame_waits";
+    case ekf::FrameTiming::kNoOdometry:
+      return "frame_before_odometry";
+    case ekf::FrameTiming::kDuplicate:
+      return "frame_duplicate";
+    case ekf::FrameTiming::kLate:
+      return "frame_late";
+    case ekf::FrameTiming::kAheadOfBelief:
+      return "frame_ahead_of_odometry";
   }
   return "frame_unknown";
 }
@@ -64,9 +79,9 @@ void EkfService::on_landmarks(const landmark_list_t& message) {
   frame.sightings.reserve(message.landmarks.size());
   std::transform(message.landmarks.begin(), message.landmarks.end(),
                  std::back_inserter(frame.sightings), to_sighting);
-  const auto later = std::upper_bound(
-      waiting_.begin(), waiting_.end(), frame.time,
-      [](Time time, const WaitingFrame& waiting) { return time < waiting.time; });
+  const auto later =
+      std::upper_bound(waiting_.begin(), waiting_.end(), frame.time,
+                       [](Time time, const WaitingFrame& waiting) { return time < waiting.time; });
   waiting_.insert(later, std::move(frame));
   use_waiting_frames();
   publish_map_if_due();

@@ -12,8 +12,8 @@ namespace roomwise {
 /// ODOMETRY and LANDMARKS in; POSE at the rate of odometry and LANDMARK_MAP out, the latter once a
 /// second of odometry time and whenever the number of landmarks changes.
 ///
-/// A frame waits until odometry has passed the instant it was taken, and frames are used in order of
-/// that instant. What is published depends on the messages and their order alone.
+/// A frame waits until odometry has passed the instant it was taken, and frames are used in order
+/// of that instant. What is published depends on the messages and their order alone.
 class EkfService {
  public:
   using Params = ekf::EkfParams;
@@ -36,8 +36,8 @@ class EkfService {
   std::deque<WaitingFrame> waiting_;  // in order of time
   std::vector<ekf::Verdict> verdicts_;
   ekf::FrameResult last_frame_;
-  std::int64_t map_second_ = 0;       // of odometry time, when the map was last sent
-  std::size_t map_count_ = 0;         // landmarks in it
+  std::int64_t map_second_ = 0;  // of odometry time, when the map was last sent
+  std::size_t map_count_ = 0;    // landmarks in it
 };
 
 }  // namespace roomwise

@@ -23,14 +23,15 @@ Candidate compare(const SlamFilter& filter, std::size_t landmark, const Sighting
   const Residual residual = filter.observation_residual(landmark, seen);
   const Eigen::Matrix2d S = filter.innovation_covariance(residual);
   const double determinant = S.determinant();
-  const SignatureDistance colour = distance(sighting.signature, filter.landmark(landmark).signature);
+  const SignatureDistance colour =
+      distance(sighting.signature, filter.landmark(landmark).signature);
   Candidate candidate{.landmark = landmark, .gate_sq = gate_99(2 + colour.degrees_of_freedom)};
   if (!(determinant > 0.0)) return candidate;
   const Eigen::Vector2d& v = residual.innovation;
-  candidate.mahalanobis_sq = (S(1, 1) * v.x() * v.x() - (S(0, 1) + S(1, 0)) * v.x() * v.y() +
-                              S(0, 0) * v.y() * v.y()) /
-                                 determinant +
-                             colour.squared;
+  candidate.mahalanobis_sq =
+      (S(1, 1) * v.x() * v.x() - (S(0, 1) + S(1, 0)) * v.x() * v.y() + S(0, 0) * v.y() * v.y()) /
+          determinant +
+      colour.squared;
   return candidate;
 }
 
@@ -54,8 +55,7 @@ Candidate find_nearest(const SlamFilter& filter, const Sighting& sighting,
     const Landmark& landmark = filter.landmark(l);
     if (landmark.identity >= 0 || landmark.kind != sighting.kind) continue;
     const Eigen::Vector2d offset = filter.landmark_position_m(l) - filter.pose().position_m();
-    const double spread_m2 =
-        noise_m2 + spread_bound_m2(filter, l, offset.norm(), pose_covariance);
+    const double spread_m2 = noise_m2 + spread_bound_m2(filter, l, offset.norm(), pose_covariance);
     if ((filter.landmark_position_m(l) - p_map_m).squaredNorm() > search_sq * spread_m2) continue;
     const Candidate candidate = compare(filter, l, sighting, seen);
     if (candidate.mahalanobis_sq < best.mahalanobis_sq) best = candidate;

@@ -7,8 +7,8 @@
 
 namespace roomwise::ekf {
 
-/// A symmetric matrix that grows and shrinks inside memory taken once. Square, row-major; rows start
-/// on cache lines; only elements on and above the diagonal are valid, reading below them is
+/// A symmetric matrix that grows and shrinks inside memory taken once. Square, row-major; rows
+/// start on cache lines; only elements on and above the diagonal are valid, reading below them is
 /// translated.
 class CovarianceStore {
  public:

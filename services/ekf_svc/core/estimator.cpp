@@ -7,10 +7,10 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr Duration kJumpMax = std::chrono::seconds(10);     // ahead, by one report alone
-constexpr int kReportsToBelieveAClock = 5;                  // in order among themselves
+constexpr Duration kJumpMax = std::chrono::seconds(10);  // ahead, by one report alone
+constexpr int kReportsToBelieveAClock = 5;               // in order among themselves
 constexpr Duration kFrameAheadMax = std::chrono::seconds(1);
-constexpr double kMissingMin_s = 0.02;  // less than this is jitter of time stamps
+constexpr double kMissingMin_s = 0.005;  // less than this is jitter of time stamps
 constexpr double kMissingMax_s = 10.0;
 constexpr double kBridgeSpeedMax_mps = 5.0;
 
@@ -38,7 +38,8 @@ OdometryVerdict Estimator::first(const OdometrySample& sample) {
   return OdometryVerdict::kFirst;
 }
 
-/// One report from another time is refused; several that follow each other are a clock that was set.
+/// One report from another time is refused; several that follow each other are a clock that was
+/// set.
 OdometryVerdict Estimator::out_of_order(const OdometrySample& sample) {
   const Duration since = sample.time - strange_.time;
   const bool follows = strange_count_ > 0 && since > Duration(0) && since <= kJumpMax;
@@ -73,8 +74,8 @@ OdometryVerdict Estimator::follow(const OdometrySample& sample) {
 
 /// Hands the filter the motion no frame may ask for any more.
 void Estimator::drop_latency() {
-  const auto latency = std::chrono::duration_cast<Duration>(
-      std::chrono::duration<double>(params_.latency_max_s));
+  const auto latency =
+      std::chrono::duration_cast<Duration>(std::chrono::duration<double>(params_.latency_max_s));
   const Time oldest = timeline_.end() - latency;
   if (timeline_.start() < oldest) move_filter(oldest);
   if (timeline_.is_full()) move_filter(timeline_.first_end());
@@ -89,9 +90,9 @@ MotionStep Estimator::step_of(const OdometrySample& sample, double missing_s) co
   }
   const double heading_sigma = params_.gap_turn_sigma_radps * missing_s;
   const double position_sigma = params_.gap_distance_sigma_mps * missing_s;
-  step.covariance.diagonal() += Eigen::Vector3d(heading_sigma * heading_sigma,
-                                                position_sigma * position_sigma,
-                                                position_sigma * position_sigma);
+  step.covariance.diagonal() +=
+      Eigen::Vector3d(heading_sigma * heading_sigma, position_sigma * position_sigma,
+                      position_sigma * position_sigma);
   return step;
 }
 

@@ -61,8 +61,8 @@ Pose2 moved(const Pose2& T_map_robot, const MotionIncrement& motion) {
 Eigen::Matrix3d moved_covariance(double heading_rad, const Eigen::Matrix3d& covariance,
                                  const MotionIncrement& motion) {
   const Eigen::Matrix2d rotation = rotation2(heading_rad);
-  const Eigen::Matrix3d F = turn_then_move(quarter_turn(rotation * motion.translation_m),
-                                           Eigen::Matrix2d::Identity());
+  const Eigen::Matrix3d F =
+      turn_then_move(quarter_turn(rotation * motion.translation_m), Eigen::Matrix2d::Identity());
   const Eigen::Matrix3d G = turn_then_move(Eigen::Vector2d::Zero(), rotation);
   return F * covariance * F.transpose() + G * motion.covariance * G.transpose();
 }

@@ -36,12 +36,20 @@ enum class Verdict : std::uint8_t {
 };
 
 /// For HEALTH; in the order of Verdict.
-inline constexpr std::array<std::string_view, 14> kVerdictNames{
-    "sighting_matched",       "sighting_added",       "sighting_replaced",
-    "sighting_held",          "sighting_ambiguous",   "sighting_outlier",
-    "sighting_taken",         "sighting_moving",      "sighting_budget_full",
-    "sighting_not_finite",    "sighting_range_invalid", "sighting_bearing_invalid",
-    "sighting_covariance_invalid", "sighting_singular"};
+inline constexpr std::array<std::string_view, 14> kVerdictNames{"sighting_matched",
+                                                                "sighting_added",
+                                                                "sighting_replaced",
+                                                                "sighting_held",
+                                                                "sighting_ambiguous",
+                                                                "sighting_outlier",
+                                                                "sighting_taken",
+                                                                "sighting_moving",
+                                                                "sighting_budget_full",
+                                                                "sighting_not_finite",
+                                                                "sighting_range_invalid",
+                                                                "sighting_bearing_invalid",
+                                                                "sighting_covariance_invalid",
+                                                                "sighting_singular"};
 
 constexpr std::string_view name_of(Verdict verdict) {
   return kVerdictNames[static_cast<std::size_t>(verdict)];

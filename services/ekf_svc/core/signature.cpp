@@ -6,8 +6,8 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kVarianceMax_log2 = 1.0;    // beyond it a colour says nothing
-constexpr double kVarianceMin_log2 = 1e-4;   // light changes more than this
+constexpr double kVarianceMax_log2 = 1.0;   // beyond it a colour says nothing
+constexpr double kVarianceMin_log2 = 1e-4;  // light changes more than this
 constexpr double kLogMax = 20.0;
 
 bool is_usable(const Signature& s) {

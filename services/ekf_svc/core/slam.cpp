@@ -9,9 +9,10 @@ namespace {
 
 constexpr double kNewLandmarkSq = 25.0;
 
-// A read identity is itself evidence. With one misreading in a hundred, spread over a view of 50 m^2,
-// the right pair stays the likelier one up to d^2 = 2 ln(99 * 50 m^2 / (2 pi sqrt(det S))): about 20
-// for a mapped landmark. Real slips of the wheels reach 20; misreadings in recordings are beyond 500.
+// A read identity is itself evidence. With one misreading in a hundred, spread over a view of 50
+// m^2, the right pair stays the likelier one up to d^2 = 2 ln(99 * 50 m^2 / (2 pi sqrt(det S))):
+// about 20 for a mapped landmark. Real slips of the wheels reach 20; misreadings in recordings are
+// beyond 500.
 constexpr double kKnownGateSq = 25.0;
 constexpr int kRefusalsMax = 5;  // in a row, of one landmark while others are accepted
 
@@ -26,12 +27,18 @@ constexpr std::size_t kSightingsExpected = 256;  // memory for more is taken whe
 void tally(std::span<const Verdict> verdicts, FrameResult& result) {
   for (const Verdict verdict : verdicts) {
     switch (verdict) {
-      case Verdict::kMatched: ++result.matched; break;
+      case Verdict::kMatched:
+        ++result.matched;
+        break;
       case Verdict::kAdded:
-      case Verdict::kReplaced: ++result.added; break;
+      case Verdict::kReplaced:
+        ++result.added;
+        break;
       case Verdict::kHeld:
-      case Verdict::kMoving: break;
-      default: ++result.rejected;
+      case Verdict::kMoving:
+        break;
+      default:
+        ++result.rejected;
     }
   }
 }
@@ -97,8 +104,8 @@ void Slam::keep_best_pairs(std::span<Verdict> verdicts) {
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     if (verdicts[i] != Verdict::kMatched) continue;
     std::size_t& owner = claimed_by_[candidates_[i].landmark];
-    const bool wins = owner == kNobody ||
-                      candidates_[i].mahalanobis_sq < candidates_[owner].mahalanobis_sq;
+    const bool wins =
+        owner == kNobody || candidates_[i].mahalanobis_sq < candidates_[owner].mahalanobis_sq;
     const std::size_t loser = wins ? owner : i;
     if (loser != kNobody) verdicts[loser] = Verdict::kTaken;
     if (wins) owner = i;
@@ -145,8 +152,7 @@ void Slam::update(std::span<const Sighting> sightings, std::span<Verdict> verdic
 void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
   residuals_.clear();
   for (const std::size_t i : batch_) {
-    residuals_.push_back(
-        filter_.observation_residual(candidates_[i].landmark, body(sightings[i])));
+    residuals_.push_back(filter_.observation_residual(candidates_[i].landmark, body(sightings[i])));
   }
   const bool used = filter_.update(residuals_) == UpdateResult::kUsed;
   for (const std::size_t i : batch_) {
@@ -175,8 +181,7 @@ void Slam::add_new(std::span<const Sighting> sightings, std::span<Verdict> verdi
 Verdict Slam::add(const Sighting& sighting) {
   const BodyObservation seen = body(sighting);
   const bool twice_in_frame =
-      sighting.identity >= 0 &&
-      find_identity(filter_, sighting, seen).landmark != Candidate::kNone;
+      sighting.identity >= 0 && find_identity(filter_, sighting, seen).landmark != Candidate::kNone;
   if (twice_in_frame) return Verdict::kTaken;
   const Landmark landmark{.identity = sighting.identity,
                           .kind = sighting.kind,

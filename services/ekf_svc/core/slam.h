@@ -15,7 +15,7 @@ struct FrameResult {
   int seen = 0;  ///< sightings offered
   int matched = 0;
   int added = 0;
-  int rejected = 0;         ///< unusable, ambiguous or refused by a gate
+  int rejected = 0;           ///< unusable, ambiguous or refused by a gate
   bool pose_widened = false;  ///< the gate was locking the filter out
 };
 
@@ -23,9 +23,9 @@ struct FrameResult {
 /// of, corrects the filter by all of them at once, then adds what is new.
 ///
 /// Known identity: the pair must pass a gate at d^2 = 25; see GateMonitor for what happens when it
-/// does not. Unknown identity: two gates (Bailey et al., IROS 2006). The nearest landmark is matched
-/// below the 99 % quantile; a landmark is begun only if the nearest is beyond d^2 = 25; between the
-/// two a sighting is ignored.
+/// does not. Unknown identity: two gates (Bailey et al., IROS 2006). The nearest landmark is
+/// matched below the 99 % quantile; a landmark is begun only if the nearest is beyond d^2 = 25;
+/// between the two a sighting is ignored.
 class Slam {
  public:
   explicit Slam(const EkfParams& params);
@@ -56,11 +56,11 @@ class Slam {
   EkfParams params_;
   SlamFilter filter_;
   GateMonitor gate_monitor_;
-  double widening_ratio_ = 1.0;           // doubles while widening does not help
-  std::vector<Candidate> candidates_;     // per sighting of the frame
-  std::vector<std::size_t> claimed_by_;   // per landmark: sighting that has it in this frame
-  std::vector<std::size_t> batch_;        // sightings of one update
-  std::vector<Residual> residuals_;       // and what they say
+  double widening_ratio_ = 1.0;          // doubles while widening does not help
+  std::vector<Candidate> candidates_;    // per sighting of the frame
+  std::vector<std::size_t> claimed_by_;  // per landmark: sighting that has it in this frame
+  std::vector<std::size_t> batch_;       // sightings of one update
+  std::vector<Residual> residuals_;      // and what they say
 };
 
 }  // namespace roomwise::ekf

@@ -1,6 +1,5 @@
 #include "services/ekf_svc/core/slam_filter.h"
 
-
 #include "services/ekf_svc/core/planar_group.h"
 
 namespace roomwise::ekf {

@@ -20,10 +20,10 @@ enum class ErrorForm {
   kInvariant,  ///< the right-invariant EKF, in the coordinates of the plain one
 };
 
-enum class [[nodiscard]] UpdateResult {
-  kUsed,
-  kSingular,   ///< innovation covariance not positive definite; state untouched
-  kNotFinite,  ///< a NaN or infinity would get in; state untouched
+enum class [[nodiscard]] UpdateResult{
+    kUsed,
+    kSingular,   ///< innovation covariance not positive definite; state untouched
+    kNotFinite,  ///< a NaN or infinity would get in; state untouched
 };
 
 /// Normalised innovation squared of an update and how many numbers went into it.
@@ -67,8 +67,9 @@ class SlamFilter {
   /// Landmark `l` seen from the robot: z = R^T (f - p) + noise.
   Residual observation_residual(std::size_t l, const BodyObservation& seen) const;
 
-  /// Landmarks `i` and `j` are one: 0 = R^T (f_i - f_j) + noise of `sigma_m` an axis. Written in the
-  /// robot frame, and with its heading column, so that it observes no more than a measurement can.
+  /// Landmarks `i` and `j` are one: 0 = R^T (f_i - f_j) + noise of `sigma_m` an axis. Written in
+  /// the robot frame, and with its heading column, so that it observes no more than a measurement
+  /// can.
   Residual equality_residual(std::size_t i, std::size_t j, double sigma_m) const;
 
   /// S = H P H^T + noise of one residual. Shape 2 x 2. O(1).

@@ -65,8 +65,8 @@ Eigen::Matrix2d SlamFilter::innovation_covariance(const Residual& residual) cons
   Eigen::Matrix<double, 5, 5> P;
   for (Eigen::Index i = 0; i < 5; ++i) {
     for (Eigen::Index j = i; j < 5; ++j) {
-      P(i, j) = P(j, i) =
-          covariance_.at(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+      P(i, j) = P(j, i) = covariance_.at(columns[static_cast<std::size_t>(i)],
+                                         columns[static_cast<std::size_t>(j)]);
     }
   }
   return H * P * H.transpose() + residual.noise;

@@ -15,8 +15,8 @@ double in_range(double low, double high) {
 MotionStep arbitrary_step() {
   MotionStep step;
   step.twist << in_range(-2.0, 2.0), in_range(-1.0, 1.0), in_range(-0.3, 0.3);
-  const Eigen::Matrix3d root = (Eigen::Matrix3d() << 0.1, 0.0, 0.0, 0.02, 0.05, 0.0, 0.01, 0.0, 0.03)
-                                   .finished();
+  const Eigen::Matrix3d root =
+      (Eigen::Matrix3d() << 0.1, 0.0, 0.0, 0.02, 0.05, 0.0, 0.01, 0.0, 0.03).finished();
   step.covariance = in_range(0.1, 2.0) * root * root.transpose();
   return step;
 }
@@ -111,7 +111,9 @@ RC_GTEST_PROP(Motion, MovedCovarianceUsesTheNumericJacobians, ()) {
     return Eigen::Vector3d(from.heading_rad + by.turn_rad, p.x(), p.y());
   };
   const Eigen::Matrix3d F = numeric_jacobian(
-      [&](const Eigen::Vector3d& x) { return end({x(1), x(2), x(0)}, motion); },
+      [&](const Eigen::Vector3d& x) {
+        return end({x(1), x(2), x(0)}, motion);
+      },
       {pose.heading_rad, pose.x_m, pose.y_m});
   const Eigen::Matrix3d G = numeric_jacobian(
       [&](const Eigen::Vector3d& m) {

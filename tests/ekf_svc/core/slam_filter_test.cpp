@@ -13,9 +13,7 @@ double in_range(double low, double high) {
   return low + (high - low) * *rc::gen::inRange(0, 1'000'001) * 1e-6;
 }
 Eigen::Vector2d arbitrary_point() { return {in_range(-5.0, 5.0), in_range(-5.0, 5.0)}; }
-Pose2 arbitrary_pose() {
-  return {in_range(-5.0, 5.0), in_range(-5.0, 5.0), in_range(-2.5, 2.5)};
-}
+Pose2 arbitrary_pose() { return {in_range(-5.0, 5.0), in_range(-5.0, 5.0), in_range(-2.5, 2.5)}; }
 
 constexpr std::array kForms{ErrorForm::kPlain, ErrorForm::kInvariant};
 
@@ -121,9 +119,9 @@ TEST(SlamFilter, AnUpdateNeverRaisesTheTrace) {
     for (int step = 0; step < 300; ++step) {
       run.step({&filter}, {});
       const double before = trace(filter);
-      const Residual residual = filter.observation_residual(
-          static_cast<std::size_t>(step) % filter.landmark_count(),
-          {{2.0, 0.1}, 0.01 * Eigen::Matrix2d::Identity()});
+      const Residual residual =
+          filter.observation_residual(static_cast<std::size_t>(step) % filter.landmark_count(),
+                                      {{2.0, 0.1}, 0.01 * Eigen::Matrix2d::Identity()});
       ASSERT_EQ(filter.update({&residual, 1}), UpdateResult::kUsed);
       ASSERT_LE(trace(filter), before + 1e-9);
     }

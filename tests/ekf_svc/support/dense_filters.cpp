@@ -112,8 +112,7 @@ void LieFilter::add(const BodyObservation& seen) {
   X_(k, k) = 1.0;
   X_.block<2, 1>(0, k) = f;
   const MatrixXd with_all = P_.middleRows<2>(1);
-  P_ = grown(P_, with_all,
-             P_.block<2, 2>(1, 1) + R * seen.covariance_m2 * R.transpose());
+  P_ = grown(P_, with_all, P_.block<2, 2>(1, 1) + R * seen.covariance_m2 * R.transpose());
 }
 
 void LieFilter::update(const std::vector<Seen>& seen) {

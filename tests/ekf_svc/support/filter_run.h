@@ -106,8 +106,8 @@ class KnownIdentityRun {
                   const std::vector<BodyObservation>& fresh) {
     std::vector<Residual> residuals;
     for (const DenseFilter::Seen& seen : known) {
-      residuals.push_back(filter.observation_residual(static_cast<std::size_t>(seen.landmark),
-                                                      seen.observation));
+      residuals.push_back(
+          filter.observation_residual(static_cast<std::size_t>(seen.landmark), seen.observation));
     }
     if (filter.update(residuals) != UpdateResult::kUsed) throw std::logic_error("update refused");
     for (const BodyObservation& body : fresh) {

@@ -154,7 +154,8 @@ double aligned_rmse(const std::vector<Eigen::Vector2d>& from,
                     const std::vector<Eigen::Vector2d>& to) {
   const Pose2 fit = rigid_fit(from, to);
   double sum = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i) sum += (transform(fit, from[i]) - to[i]).squaredNorm();
+  for (std::size_t i = 0; i < from.size(); ++i)
+    sum += (transform(fit, from[i]) - to[i]).squaredNorm();
   return std::sqrt(sum / static_cast<double>(from.size()));
 }
 

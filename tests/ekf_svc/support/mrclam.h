@@ -11,8 +11,8 @@ namespace roomwise::mrclam {
 
 /// One robot's run of the UTIAS MRCLAM data set (Leung et al., IJRR 2011).
 struct Run {
-  std::vector<LogEvent> events;                     ///< ODOMETRY and LANDMARKS, in order of time
-  std::map<std::int64_t, Pose2> truth;              ///< by utime
+  std::vector<LogEvent> events;                       ///< ODOMETRY and LANDMARKS, in order of time
+  std::map<std::int64_t, Pose2> truth;                ///< by utime
   std::map<std::int32_t, Eigen::Vector2d> landmarks;  ///< by subject
 };
 
@@ -26,8 +26,8 @@ struct Noise {
   double bearing_rad = 0.03;
 };
 
-/// Speeds are held until the next line. Sightings of one instant are one LANDMARKS message; those of
-/// other robots are left out.
+/// Speeds are held until the next line. Sightings of one instant are one LANDMARKS message; those
+/// of other robots are left out.
 Run read(const std::filesystem::path& folder, int robot, const Noise& noise = {});
 
 /// Truth at `utime`, linear between its neighbours; false outside.
