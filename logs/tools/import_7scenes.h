@@ -5,8 +5,8 @@
 namespace roomwise {
 
 struct SevenScenesImport {
-  std::filesystem::path folder;
-  std::filesystem::path out;
+  std::filesystem::path folder{};
+  std::filesystem::path out{};
   double camera_height_m = 1.2;  ///< of the first camera above the floor; the set does not say
 };
 

@@ -5,8 +5,8 @@
 namespace roomwise {
 
 struct MrclamImport {
-  std::filesystem::path folder;
-  std::filesystem::path out;
+  std::filesystem::path folder{};
+  std::filesystem::path out{};
   int robot = 1;
   double distance_variance_m2_per_m = 0.005;
   double turn_variance_rad2_per_rad = 0.02;

@@ -8,11 +8,11 @@
 namespace roomwise {
 
 struct TumImport {
-  std::filesystem::path folder;
-  std::filesystem::path out;
-  std::optional<PinholeCamera> camera;  ///< none: by the folder's name, said aloud
-  double depth_scale = 5000.0;          ///< depth steps a metre
-  double camera_height_m = 1.2;         ///< used where there is no truth
+  std::filesystem::path folder{};
+  std::filesystem::path out{};
+  std::optional<PinholeCamera> camera{};  ///< none: by the folder's name, said aloud
+  double depth_scale = 5000.0;            ///< depth steps a metre
+  double camera_height_m = 1.2;           ///< used where there is no truth
 };
 
 /// Makes a log of a TUM RGB-D folder (Sturm et al., IROS 2012): rgb.txt and depth.txt (time, file),
