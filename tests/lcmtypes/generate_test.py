@@ -27,14 +27,15 @@ class Generate(unittest.TestCase):
         for word in words:
             self.assertIn(word, done.stderr)
 
-    def test_a_good_type_makes_its_class_its_guard_and_the_list(self):
+    def test_a_good_type_makes_its_class_guard_visitor_and_the_lists(self):
         done = self.generate(
             part_t="package roomwise; struct part_t { double x_m; }",
             whole_t="package roomwise; struct whole_t { const int8_t A = 1; int32_t n; part_t p[n]; }")
         self.assertEqual(done.returncode, 0, done.stderr)
         made = {path.name for path in (self.out / "roomwise").iterdir()}
-        self.assertEqual(made, {"part_t.hpp", "part_t_guard.hpp", "whole_t.hpp", "whole_t_guard.hpp",
-                                "all_messages.hpp"})
+        self.assertEqual(made, {"part_t.hpp", "part_t_guard.hpp", "part_t_fields.hpp", "whole_t.hpp",
+                                "whole_t_guard.hpp", "whole_t_fields.hpp", "all_messages.hpp",
+                                "all_fields.hpp"})
         self.assertIn("std::tuple<part_t, whole_t>",
                       (self.out / "roomwise" / "all_messages.hpp").read_text())
 
