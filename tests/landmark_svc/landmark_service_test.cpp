@@ -53,7 +53,7 @@ kinect_frame_t message_of(const RgbdFrame& frame, std::int64_t utime, std::int64
 }
 
 const RgbdFrame& furnished_frame() {
-  static const RgbdFrame frame = render(furnished_room(), {}, {}, 0);
+  static const RgbdFrame frame = render(furnished_room(), {}, {0.2, -0.2, 0.05}, 0);
   return frame;
 }
 

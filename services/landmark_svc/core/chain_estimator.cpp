@@ -1,12 +1,12 @@
 #include "services/landmark_svc/core/chain_estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/geometry/angle.h"
 #include "services/landmark_svc/core/line_fit.h"
 #include "services/landmark_svc/core/surface_color.h"
-#include "services/landmark_svc/core/surface_plane.h"
 
 namespace roomwise::landmark {
 namespace {
@@ -14,30 +14,9 @@ namespace {
 /// Column of the edge line itself: the outer border of the near pixel.
 double edge_column_px(const EdgePixel& edge) { return edge.u_px - 0.5 * edge.inward_px(); }
 
-/// Calls sample(u, v, disparity parts) for the near surface of `edge`. The near pixel itself, often
-/// a mixture of both surfaces, serves only where there is no other.
-template <class Sample>
-void for_each_near_pixel(const DepthImage& depth, const DisparityTable& table,
-                         const EdgePixel& edge, Sample sample) {
-  for (int k = edge.near_run_px > 1 ? 1 : 0; k < edge.near_run_px; ++k) {
-    const int u = edge.u_px + k * edge.inward_px();
-    sample(u, edge.v_px, static_cast<double>(table.parts(depth.at(u, edge.v_px))));
-  }
-}
-
-SurfacePlane plane_near(double u_px, double v_px, const DepthImage& depth,
-                        const DisparityTable& table, std::span<const EdgePixel> chain,
-                        const SurfacePlane* trimmed_about) {
-  constexpr double kTrim_parts = 1.5 * DisparityTable::kPartsPerQuantum;
-  SurfacePlane plane(u_px, v_px);
-  for (const EdgePixel& pixel : chain) {
-    for_each_near_pixel(depth, table, pixel, [&](int u, int v, double parts) {
-      if (trimmed_about && std::abs(trimmed_about->at(u, v) - parts) > kTrim_parts) return;
-      plane.add(u, v, parts);
-    });
-  }
-  return plane;
-}
+/// First pixel of the near surface to use: the near pixel itself, often a mixture of both
+/// surfaces, serves only where there is no other.
+int first_inside_px(const EdgePixel& edge) { return edge.near_run_px > 1 ? 1 : 0; }
 
 /// Covariance of (range, bearing) from sigmas along and across the camera's viewing direction.
 Eigen::Matrix2d polar_covariance(const Eigen::Vector2d& p_robot_m, const Eigen::Vector2d& forward,
@@ -94,6 +73,7 @@ struct ChainEstimator::Lines {
 };
 
 void ChainEstimator::reserve(int height_px) {
+  near_rows_.reserve(static_cast<std::size_t>(height_px));
   points_.reserve(static_cast<std::size_t>(height_px));
 }
 
@@ -105,7 +85,9 @@ std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene,
   const double rows_min = std::max(3.0, params.rows_min_px * scene.depth.height_px / 480.0);
   if (rows < rows_min) return RejectReason::kChainTooFewRows;
   const std::optional<Middle> middle = find_middle(scene, chain);
-  if (!middle || !place_points(scene, chain, *middle)) return RejectReason::kLandmarkUnfit;
+  if (!middle) return RejectReason::kLandmarkUnfit;
+  const std::optional<double> slope_quanta_px = place_points(scene, chain, *middle);
+  if (!slope_quanta_px) return RejectReason::kLandmarkUnfit;
 
   const Lines all = fit_lines();
   const double pixel_m = all.along_m.mean_y() / scene.camera.fx_px;
@@ -121,7 +103,10 @@ std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene,
       params.depth_noise_quanta * quantum_m / std::sqrt(std::min(rows, 9.0));
   if (!is_vertical(lines, depth_sigma_m, params.lean_max_rad)) return RejectReason::kChainLeaning;
 
-  describe_position(scene, *middle, lines, depth_sigma_m, params, landmark);
+  const double slant_sigma_m = *slope_quanta_px * quantum_m * params.lateral_noise_px;
+  const double along_variance_m2 = depth_sigma_m * depth_sigma_m + slant_sigma_m * slant_sigma_m +
+                                   params.depth_bias_m * params.depth_bias_m;
+  describe_position(scene, *middle, lines, along_variance_m2, params, landmark);
   describe_look(scene, chain, landmark);
   landmark.u_px = middle->u_px;
   const double raggedness = column_rms_px / 2.0;
@@ -142,7 +127,7 @@ bool ChainEstimator::is_vertical(const Lines& lines, double depth_sigma_m, doubl
 }
 
 void ChainEstimator::describe_position(const Scene& scene, const Middle& middle, const Lines& lines,
-                                       double depth_sigma_m, const ChainEstimateParams& params,
+                                       double along_variance_m2, const ChainEstimateParams& params,
                                        Landmark& landmark) {
   const Eigen::Vector2d left(-middle.forward.y(), middle.forward.x());
   const double z_m = lines.along_m.mean_y();
@@ -152,8 +137,7 @@ void ChainEstimator::describe_position(const Scene& scene, const Middle& middle,
   landmark.range_m = p_robot_m.norm();
   landmark.bearing_rad = wrap_angle(std::atan2(p_robot_m.y(), p_robot_m.x()));
   landmark.covariance = polar_covariance(
-      p_robot_m, middle.forward,
-      depth_sigma_m * depth_sigma_m + params.depth_bias_m * params.depth_bias_m,
+      p_robot_m, middle.forward, along_variance_m2,
       lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m);
   landmark.height_low_m = lines.height_low_m;
   landmark.height_high_m = lines.height_high_m;
@@ -189,14 +173,14 @@ std::optional<ChainEstimator::Middle> ChainEstimator::find_middle(
   return middle;
 }
 
-bool ChainEstimator::place_points(const Scene& scene, std::span<const EdgePixel> chain,
-                                  const Middle& middle) {
-  const auto fit = [&](const SurfacePlane* about) {
-    return plane_near(middle.u_px, middle.v_px, scene.depth, scene.table, chain, about);
-  };
-  SurfacePlane rough = fit(nullptr);
-  if (!rough.solve()) return false;
-  SurfacePlane plane = fit(&rough);
+std::optional<double> ChainEstimator::place_points(const Scene& scene,
+                                                   std::span<const EdgePixel> chain,
+                                                   const Middle& middle) {
+  gather_near_rows(scene, chain);
+  const int deepest_px = straight_depth_px(chain);
+  SurfacePlane rough = near_plane(chain, middle, deepest_px, nullptr);
+  if (!rough.solve()) return std::nullopt;
+  SurfacePlane plane = near_plane(chain, middle, deepest_px, &rough);
   if (!plane.solve()) plane = rough;
 
   const Eigen::Matrix3d rotation = scene.T_robot_camera.linear();
@@ -205,7 +189,7 @@ bool ChainEstimator::place_points(const Scene& scene, std::span<const EdgePixel>
   for (const EdgePixel& pixel : chain) {
     const double u = edge_column_px(pixel);
     const double quanta = plane.at(u, pixel.v_px) / DisparityTable::kPartsPerQuantum;
-    if (!(quanta > 0.5)) return false;
+    if (!(quanta > 0.5)) return std::nullopt;
     const Eigen::Vector3d ray_camera((u - scene.camera.cx_px) / scene.camera.fx_px,
                                      (pixel.v_px - scene.camera.cy_px) / scene.camera.fy_px, 1.0);
     const Eigen::Vector3d p_m = rotation * ray_camera * scene.table.depth_from_quanta_m(quanta);
@@ -214,7 +198,62 @@ bool ChainEstimator::place_points(const Scene& scene, std::span<const EdgePixel>
                        .height_m = camera_height_m + p_m.z(),
                        .kept = true});
   }
-  return true;
+  return plane.slope_per_px() / DisparityTable::kPartsPerQuantum;
+}
+
+void ChainEstimator::gather_near_rows(const Scene& scene, std::span<const EdgePixel> chain) {
+  near_rows_.clear();
+  for (const EdgePixel& pixel : chain) {
+    NearRow& row = near_rows_.emplace_back();
+    for (int k = 0; k < pixel.near_run_px; ++k) {
+      row[static_cast<std::size_t>(k)] =
+          scene.table.parts(scene.depth.at(pixel.u_px + k * pixel.inward_px(), pixel.v_px));
+    }
+  }
+}
+
+/// How deep the near surface is straight, in pixels from the edge: the side of a box seen at a
+/// grazing angle ends after a few, and its front must not bend the fit. One row cannot tell; the
+/// profile averaged over the rows can.
+int ChainEstimator::straight_depth_px(std::span<const EdgePixel> chain) const {
+  constexpr std::size_t kFewest_px = 3;
+  constexpr double kBend_parts = 0.4 * DisparityTable::kPartsPerQuantum;
+  std::array<double, kNearRunMax_px> sum{};  // over rows, relative to the first pixel inside
+  std::array<double, kNearRunMax_px> rows{};
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    for (std::size_t k = 1; k < chain[i].near_run_px; ++k) {
+      sum[k] += near_rows_[i][k] - near_rows_[i][1];
+      rows[k] += 1.0;
+    }
+  }
+  LineFit line;
+  std::size_t k = 1;
+  for (; k < kNearRunMax_px && rows[k] >= 0.5 * static_cast<double>(chain.size()); ++k) {
+    const double mean = sum[k] / rows[k];
+    const double place = static_cast<double>(k);
+    if (k > kFewest_px && std::abs(mean - line.at(place)) > kBend_parts) break;
+    line.add(place, mean);
+  }
+  return static_cast<int>(std::max(k - 1, kFewest_px));
+}
+
+SurfacePlane ChainEstimator::near_plane(std::span<const EdgePixel> chain, const Middle& middle,
+                                        int deepest_px, const SurfacePlane* trimmed_about) const {
+  constexpr double kTrim_parts = 1.5 * DisparityTable::kPartsPerQuantum;
+  SurfacePlane plane(middle.u_px, middle.v_px);
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const EdgePixel& pixel = chain[i];
+    const int end = std::min<int>(pixel.near_run_px, deepest_px + 1);
+    for (int k = first_inside_px(pixel); k < end; ++k) {
+      const int u = pixel.u_px + k * pixel.inward_px();
+      const double parts = near_rows_[i][static_cast<std::size_t>(k)];
+      if (trimmed_about && std::abs(trimmed_about->at(u, pixel.v_px) - parts) > kTrim_parts) {
+        continue;
+      }
+      plane.add(u, pixel.v_px, parts);
+    }
+  }
+  return plane;
 }
 
 ChainEstimator::Lines ChainEstimator::fit_lines() const {

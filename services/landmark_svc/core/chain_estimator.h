@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "services/landmark_svc/core/edge_pixel.h"
 #include "services/landmark_svc/core/landmark.h"
 #include "services/landmark_svc/core/reject_counts.h"
+#include "services/landmark_svc/core/surface_plane.h"
 
 namespace roomwise::landmark {
 
@@ -27,13 +30,16 @@ struct ChainEstimateParams {
 
 /// Turns chains of edge pixels into landmarks.
 ///
-/// The near surface's disparity is fitted as a plane in the image (up to 8 pixels deep from the
-/// edge, trimmed once) and extended to the edge line, half a pixel outside the near pixels. Each
-/// row then gives a point; lateral and along-ray position against height are fitted as lines,
-/// trimmed once. Their means are the landmark, their slopes its lean, the scatter its raggedness.
-/// Position sigmas, from which the range-bearing covariance follows by its Jacobian:
+/// The near surface's disparity is fitted as a plane in the image (as deep as it is straight, at
+/// most 8 pixels from the edge, trimmed once) and extended to the edge line, half a pixel outside
+/// the near pixels. Each row then gives a point; lateral and along-ray position against height are
+/// fitted as lines, trimmed once. Their means are the landmark, their slopes its lean, the scatter
+/// its raggedness. Position sigmas, from which the range-bearing covariance follows by its
+/// Jacobian:
 ///   lateral^2 = (lateral_noise_px z / f)^2 + lateral_bias_m^2
-///   along^2   = (depth_noise z^2 / (8 f b))^2 / min(rows, 9) + depth_bias_m^2
+///   along^2   = (q depth_noise)^2 / min(rows, 9) + (q slope lateral_noise_px)^2 + depth_bias_m^2
+/// with q = z^2 / (8 f b) the depth of a quantum and slope the near surface's, in quanta a column:
+/// on a side seen at a grazing angle a small error of the column is a large one of depth.
 class ChainEstimator {
  public:
   /// Everything of a frame an estimate needs; must outlive the calls.
@@ -65,6 +71,8 @@ class ChainEstimator {
     double height_m;
     bool kept;
   };
+  /// Disparity of one row's near surface, in parts, from the near pixel inwards.
+  using NearRow = std::array<std::uint16_t, kNearRunMax_px>;
   /// Where the chain is seen, before anything is fitted.
   struct Middle {
     double u_px;
@@ -76,15 +84,23 @@ class ChainEstimator {
   static std::optional<Middle> find_middle(const Scene& scene, std::span<const EdgePixel> chain);
   static bool is_vertical(const Lines& lines, double depth_sigma_m, double lean_max_rad);
   static void describe_position(const Scene& scene, const Middle& middle, const Lines& lines,
-                                double depth_sigma_m, const ChainEstimateParams& params,
+                                double along_variance_m2, const ChainEstimateParams& params,
                                 Landmark& landmark);
   static void describe_look(const Scene& scene, std::span<const EdgePixel> chain,
                             Landmark& landmark);
-  bool place_points(const Scene& scene, std::span<const EdgePixel> chain, const Middle& middle);
+  /// Fills points_ from near_rows_. Returns the near surface's slope in quanta a column; nothing if
+  /// there is no fit.
+  std::optional<double> place_points(const Scene& scene, std::span<const EdgePixel> chain,
+                                     const Middle& middle);
+  void gather_near_rows(const Scene& scene, std::span<const EdgePixel> chain);
+  int straight_depth_px(std::span<const EdgePixel> chain) const;
+  SurfacePlane near_plane(std::span<const EdgePixel> chain, const Middle& middle, int deepest_px,
+                          const SurfacePlane* trimmed_about) const;
   Lines fit_lines() const;
   void trim(const Lines& lines, double smallest_m);
 
-  std::vector<EdgePoint> points_;
+  std::vector<NearRow> near_rows_;  // of each pixel of the chain
+  std::vector<EdgePoint> points_;   // likewise
 };
 
 }  // namespace roomwise::landmark

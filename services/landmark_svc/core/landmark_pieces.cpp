@@ -2,12 +2,18 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "common/geometry/angle.h"
 
 namespace roomwise::landmark {
 namespace {
+
+Eigen::Vector2d position_m(const Landmark& landmark) {
+  return landmark.range_m *
+         Eigen::Vector2d(std::cos(landmark.bearing_rad), std::sin(landmark.bearing_rad));
+}
 
 bool are_one_edge(const Landmark& a, const Landmark& b, double gate_mahalanobis_sq) {
   if (a.kind != b.kind) return false;
@@ -26,9 +32,9 @@ Landmark average(const Landmark& a, const Landmark& b) {
   const double b_share = static_cast<double>(b.rows) / (a.rows + b.rows);
   const auto mean = [b_share](double of_a, double of_b) { return of_a + b_share * (of_b - of_a); };
   Landmark joined = longer;  // covariance and colour of the piece that is known better
-  joined.range_m = mean(a.range_m, b.range_m);
-  joined.bearing_rad =
-      wrap_angle(a.bearing_rad + b_share * wrap_angle(b.bearing_rad - a.bearing_rad));
+  const Eigen::Vector2d p_m = position_m(a) + b_share * (position_m(b) - position_m(a));
+  joined.range_m = p_m.norm();
+  joined.bearing_rad = wrap_angle(std::atan2(p_m.y(), p_m.x()));
   joined.height_low_m = std::min(a.height_low_m, b.height_low_m);
   joined.height_high_m = std::max(a.height_high_m, b.height_high_m);
   joined.step_m = mean(a.step_m, b.step_m);

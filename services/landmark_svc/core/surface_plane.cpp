@@ -4,20 +4,13 @@
 
 namespace roomwise::landmark {
 
-void SurfacePlane::add(double u_px, double v_px, double disparity) {
-  const Eigen::Vector3d row(1.0, u_px - u0_px_, v_px - v0_px_);
-  normal_.noalias() += row * row.transpose();
-  right_ += row * disparity;
-}
-
 bool SurfacePlane::solve() {
-  const double count = normal_(0, 0);
-  if (count < 1.0) return false;
+  if (count_ < 1.0) return false;
   constexpr double kRidge_px2 = 1e-3;  // far below the spread of any real patch
-  Eigen::Matrix3d ridged = normal_;
-  ridged(1, 1) += kRidge_px2 * count;
-  ridged(2, 2) += kRidge_px2 * count;
-  plane_ = ridged.ldlt().solve(right_);
+  const double ridge = kRidge_px2 * count_;
+  Eigen::Matrix3d normal;
+  normal << count_, u_, v_, u_, uu_ + ridge, uv_, v_, uv_, vv_ + ridge;
+  plane_ = normal.ldlt().solve(Eigen::Vector3d(d_, ud_, vd_));
   return plane_.allFinite();
 }
 
