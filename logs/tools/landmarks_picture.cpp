@@ -14,6 +14,7 @@ namespace {
 
 constexpr Color kEdge{0, 235, 255};
 constexpr Color kBlack{0, 0, 0};
+constexpr Color kWhite{255, 255, 255};
 
 struct Kind {
   const char* name;
@@ -62,14 +63,13 @@ void draw_edges(FramePicture& picture, const ToColor& to_color, const landmark_l
 class RangeTexts {
  public:
   void draw(Canvas& canvas, cv::Point2d stroke_top, const landmark_observation_t& landmark) {
-    constexpr double kHeight_px = 10.0;
+    constexpr double kHeight_px = 12.0;
     const std::string words = fmt::format("{:.2f} m", landmark.range_m);
-    cv::Rect2d box(stroke_top.x + 6, stroke_top.y, Canvas::text_width_px(words, kHeight_px), 14);
+    cv::Rect2d box(stroke_top.x + 6, stroke_top.y, Canvas::text_width_px(words, kHeight_px), 17);
     const auto overlaps = [&box](const cv::Rect2d& other) { return (box & other).area() > 0.0; };
-    while (std::ranges::any_of(boxes_, overlaps)) box.y += 16;
+    while (std::ranges::any_of(boxes_, overlaps)) box.y += 18;
     boxes_.push_back(box);
-    canvas.outlined_text({box.x, box.br().y - 2}, words, kHeight_px, kind_of(landmark).color,
-                         kBlack);
+    canvas.outlined_text({box.x, box.br().y - 2}, words, kHeight_px, kWhite, kBlack);
   }
 
  private:
@@ -120,7 +120,7 @@ void draw_column(FramePicture& picture, const landmark_list_t& landmarks) {
                           landmarks.beta_ratio));
   if (!landmarks.rejections.empty()) picture.gap();
   for (const named_count_t& rejection : landmarks.rejections) {
-    picture.row(fmt::format("{} {}", rejection.count, rejection.name));
+    if (rejection.count > 0) picture.row(fmt::format("{} {}", rejection.count, rejection.name));
   }
 }
 

@@ -111,8 +111,10 @@ void run_score(const ScoreOptions& options) {
   sort_by_time(recording);
   Scores scores = score_recording(recording);
   if (masks) std::ranges::copy(score_floor(masks->frames()), std::back_inserter(scores));
-  fmt::print("{}", options.json ? scores_as_json(scores) : scores_as_text(scores));
-  std::fflush(stdout);
+  if (!scores.empty()) {
+    fmt::print("{}", options.json ? scores_as_json(scores) : scores_as_text(scores));
+    std::fflush(stdout);
+  }
   reading.raise_complaints(options.log);
   if (scores.empty()) {
     throw std::runtime_error(
