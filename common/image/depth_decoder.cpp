@@ -1,6 +1,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -36,7 +37,7 @@ struct Lane {
   std::vector<std::uint16_t> above;
   std::vector<std::uint16_t> row;
   std::vector<std::uint16_t> above_classes;
-  std::uint16_t* out = nullptr;  ///< the next row's indices, 0 for holes
+  std::uint16_t* out = nullptr;  ///< the next row's values
 };
 
 /// The same for the length of one row, small enough to be kept in registers.
@@ -80,7 +81,7 @@ Token token_with(std::size_t number, std::size_t frequency, std::size_t start) {
   return token;
 }
 
-/// Classes of the pixels below `above`, whose indices are `above_out`.
+/// Classes of the pixels below `above`, whose values are `above_out`.
 void classify(const std::uint16_t* above, const std::uint16_t* above_out, int width_px,
               std::uint16_t* classes) {
   for (int u = 0; u < width_px - 1; ++u) {
@@ -92,7 +93,8 @@ void classify(const std::uint16_t* above, const std::uint16_t* above_out, int wi
   classes[last] = above_class(above[last - 1], above[last], above[last], hole, hole);
 }
 
-inline void decode_pixel(Cursor& cursor, const Table* tables, int u) {
+inline void decode_pixel(Cursor& cursor, const Table* tables, const std::uint16_t* value_of,
+                         int u) {
   const std::uint16_t ul = cursor.above[u - 1];
   const std::size_t context = static_cast<std::size_t>(cursor.above_classes[u]) +
                               left_class(cursor.left, ul, cursor.hole_class);
@@ -108,16 +110,17 @@ inline void decode_pixel(Cursor& cursor, const Table* tables, int u) {
       static_cast<std::uint16_t>(predict(cursor.left, cursor.above[u], ul) + residual);
   // Masks where a branch would be guessed wrong at every edge of a hole.
   const auto seen = static_cast<std::uint16_t>((token.hole_class & 1) - 1);
-  cursor.left = static_cast<std::uint16_t>(cursor.left ^ ((cursor.left ^ value) & seen));
+  const auto shown = static_cast<std::uint16_t>(value & seen);
+  cursor.left = static_cast<std::uint16_t>(shown | (cursor.left & ~seen));
   cursor.hole_class = token.hole_class;
   cursor.row[u] = cursor.left;
-  cursor.out[u] = cursor.left & seen;
+  cursor.out[u] = value_of[shown];
 }
 
 }  // namespace
 
 struct DepthDecoder::Memory {
-  std::vector<std::uint16_t> palette;  ///< value of each index; palette[0] = 0
+  std::vector<std::uint16_t> value_of = std::vector<std::uint16_t>(1 << 16);  ///< of each index
   std::array<Table, kContexts> tables;
   std::array<Lane, kLanes> lanes;
 
@@ -128,7 +131,6 @@ struct DepthDecoder::Memory {
   bool open_lanes(Bytes bytes, int width_px, int height_px, std::uint16_t* values);
   template <std::size_t kCount>
   void decode_rows(int width_px);
-  bool look_up(std::span<std::uint16_t> values) const;
 };
 
 DepthDecoder::DepthDecoder() : memory_(std::make_unique<Memory>()) {}
@@ -137,13 +139,13 @@ DepthDecoder::~DepthDecoder() = default;
 bool DepthDecoder::Memory::read_palette(Bytes& bytes) {
   const auto count = read_varint(bytes);
   if (!count || *count > 0xFFFF || *count > bytes.size()) return false;
-  palette.assign(1, 0);
+  std::ranges::fill(value_of, std::uint16_t{0});
   std::size_t value = 0;
-  for (std::size_t i = 0; i < *count; ++i) {
+  for (std::size_t index = 1; index <= *count; ++index) {
     const auto step = read_varint(bytes);
     if (!step || *step == 0 || *step > 0xFFFF - value) return false;
     value += *step;
-    palette.push_back(static_cast<std::uint16_t>(value));
+    value_of[index] = static_cast<std::uint16_t>(value);
   }
   return true;
 }
@@ -202,7 +204,7 @@ void DepthDecoder::Memory::decode_rows(int width_px) {
   }
   for (int u = 0; u < width_px; ++u) {
 #pragma GCC unroll 2
-    for (Cursor& cursor : cursors) decode_pixel(cursor, tables.data(), u);
+    for (Cursor& cursor : cursors) decode_pixel(cursor, tables.data(), value_of.data(), u);
   }
   for (std::size_t i = 0; i < kCount; ++i) {
     Lane& lane = lanes[i];
@@ -213,18 +215,9 @@ void DepthDecoder::Memory::decode_rows(int width_px) {
   }
 }
 
-/// Indices to values; false if there is one that the palette has not.
-bool DepthDecoder::Memory::look_up(std::span<std::uint16_t> values) const {
-  std::uint16_t largest = 0;
-  for (const std::uint16_t index : values) largest = std::max(largest, index);
-  if (largest >= palette.size()) return false;
-  const std::uint16_t* value_of = palette.data();
-  for (std::uint16_t& value : values) value = value_of[value];
-  return true;
-}
-
 bool DepthDecoder::Memory::decode(Layout layout, Bytes bytes, int width_px, int height_px,
                                   std::span<std::uint16_t> values) {
+  if (layout == kValues) std::iota(value_of.begin(), value_of.end(), std::uint16_t{0});
   if (layout == kPalette && !read_palette(bytes)) return false;
   for (Table& table : tables) {
     if (!read_table(bytes, table)) return false;
@@ -232,8 +225,7 @@ bool DepthDecoder::Memory::decode(Layout layout, Bytes bytes, int width_px, int 
   if (!open_lanes(bytes, width_px, height_px, values.data())) return false;
   for (int row = 0; row < height_px / 2; ++row) decode_rows<2>(width_px);
   if (height_px % 2 != 0) decode_rows<1>(width_px);
-  return lanes[0].coder.at_end() && lanes[1].coder.at_end() &&
-         (layout == kValues || look_up(values));
+  return lanes[0].coder.at_end() && lanes[1].coder.at_end();
 }
 
 bool DepthDecoder::decode(Bytes bytes, int width_px, int height_px,

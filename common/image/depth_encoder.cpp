@@ -103,11 +103,20 @@ void DepthEncoder::Memory::find_distinct(std::span<const std::uint16_t> values) 
   for (const std::uint16_t value : distinct) seen[value] = 0;
   distinct.clear();
   seen[0] = 1;
-  for (const std::uint16_t value : values) {
-    if (seen[value] != 0) continue;
+  const auto look_at = [this](std::uint16_t value) {
+    if (seen[value] != 0) return;
     seen[value] = 1;
     distinct.push_back(value);
+  };
+  // Nearly every four have been seen: one branch for all of them.
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4) {
+    const std::uint16_t* four = values.data() + i;
+    if ((seen[four[0]] & seen[four[1]] & seen[four[2]] & seen[four[3]]) == 0) {
+      std::for_each_n(four, 4, look_at);
+    }
   }
+  std::ranges::for_each(values.subspan(i), look_at);
   std::ranges::sort(distinct);
 }
 
@@ -137,12 +146,13 @@ void DepthEncoder::Memory::load_row(const std::uint16_t* values, int width_px) {
   std::uint16_t left = above.fill[1];
   fill[-1] = left;
   hole[-1] = 0;
+  for (int u = 0; u < width_px; ++u) hole[u] = values[u] == 0;
+  const std::uint16_t* indices = index_of.data();
+#pragma GCC unroll 4
   for (int u = 0; u < width_px; ++u) {
-    const std::uint16_t value = values[u];
-    const std::uint16_t index = index_of[value];
-    left = value == 0 ? left : index;
+    const std::uint16_t index = indices[values[u]];
+    left = index == 0 ? left : index;
     fill[u] = left;
-    hole[u] = value == 0;
   }
   fill[width_px] = left;
   hole[width_px] = hole[width_px - 1];
@@ -150,6 +160,7 @@ void DepthEncoder::Memory::load_row(const std::uint16_t* values, int width_px) {
 
 /// Counts a row's symbols, and gives the large residuals the tokens of their size.
 void DepthEncoder::Memory::count_row(Symbol* symbols, int width_px, Lane& lane) {
+#pragma GCC unroll 4
   for (int u = 0; u < width_px; ++u) {
     if ((symbols[u] & (kTokenSlots - 1)) > kDirect) [[unlikely]] {
       const std::uint16_t folded = row_folded[static_cast<std::size_t>(u)];

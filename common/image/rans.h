@@ -20,14 +20,17 @@ constexpr int kStateBits = 31;
 /// state * reciprocal >> kQuotientShift: exact, because state * frequency < 2^kQuotientShift.
 struct EncoderSymbol {
   std::uint64_t reciprocal = 0;
-  std::uint32_t start = 0;  ///< sum of the frequencies of the symbols before it
-  std::uint32_t frequency = 0;
+  std::uint32_t state_end = 0;   ///< states from here on would leave the range
+  std::uint16_t start = 0;       ///< sum of the frequencies of the symbols before it
+  std::uint16_t complement = 0;  ///< kTotal - frequency
 };
 constexpr int kQuotientShift = kStateBits + kTotalBits;
 
 constexpr EncoderSymbol encoder_symbol(std::uint32_t frequency, std::uint32_t start) {
   if (frequency == 0) return {};
-  return {((1ULL << kQuotientShift) + frequency - 1) / frequency, start, frequency};
+  return {((1ULL << kQuotientShift) + frequency - 1) / frequency,
+          frequency << (kStateBits - kTotalBits), static_cast<std::uint16_t>(start),
+          static_cast<std::uint16_t>(kTotal - frequency)};
 }
 
 /// Writes words downwards from the end of its memory, which must reach.
@@ -37,10 +40,9 @@ class Encoder {
   explicit Encoder(std::uint16_t* end) : next_(end), end_(end) {}
 
   void put(const EncoderSymbol& symbol) {
-    make_room(symbol.frequency << (kStateBits - kTotalBits));
+    make_room(symbol.state_end);
     const auto quotient = static_cast<std::uint32_t>(state_ * symbol.reciprocal >> kQuotientShift);
-    // quotient * kTotal + remainder + start
-    state_ += symbol.start + quotient * (kTotal - symbol.frequency);
+    state_ += symbol.start + quotient * symbol.complement;  // quotient * kTotal + remainder + start
   }
   void put_raw(std::uint32_t value, int bits) {
     make_room(1U << (kStateBits - bits));
