@@ -188,6 +188,7 @@ void sweep(benchmark::State& state, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) vector[i] = 1e-3 * static_cast<double>((i + k) % 7);
     terms.push_back({vector, vector, k % 2 == 0 ? 1.0 : -1.0});
   }
+  sweep_upper(store.data(), store.stride(), n, terms);  // the system hands out the pages
   for (auto _ : state) sweep_upper(store.data(), store.stride(), n, terms);
   count_bytes(state, n);
 }
@@ -201,6 +202,7 @@ void scale(double* values, std::size_t size, double by) {
 void scale_in_place(benchmark::State& state, std::size_t n) {
   const std::size_t size = n * (n + 1) / 2;
   AlignedBuffer values(size);
+  scale(values.data(), size, 0.0);
   for (auto _ : state) {
     scale(values.data(), size, 1.0000001);
     benchmark::ClobberMemory();
@@ -243,7 +245,7 @@ int main(int argc, char** argv) {
   std::fprintf(stderr, "MRPT is not installed (scripts/setup --peers): no comparison with it\n");
 #endif
   for (const int landmarks : {30, 300, 1000}) roomwise::ekf::add_frames(landmarks);
-  for (const std::size_t landmarks : {1000U, 2000U, 4000U}) roomwise::ekf::add_sweep(landmarks);
+  for (const std::size_t landmarks : {1000U, 2000U}) roomwise::ekf::add_sweep(landmarks);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
