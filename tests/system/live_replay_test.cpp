@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Services, LiveReplayTest,
                          ::testing::Values(Case{"landmark_svc", made_frames, {"LANDMARKS"}},
                                            Case{"segment_svc", made_frames, {"SEGMENTS"}},
                                            Case{"ekf_svc", made_drive, {"POSE", "LANDMARK_MAP"}}),
-                         [](const auto& info) { return std::string(info.param.service); });
+                         [](const auto& instance) { return std::string(instance.param.service); });
 
 }  // namespace
 }  // namespace roomwise
