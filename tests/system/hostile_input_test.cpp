@@ -161,7 +161,7 @@ TEST_P(HostileLogTest, AbsurdNumbersAreCountedAndNeverLeaveTheService) {
 TEST_P(HostileLogTest, ALogCutAnywhereGivesWhatWasWholeAndFails) {
   write_log(log_, GetParam().make_events());
   const auto size = std::filesystem::file_size(log_);
-  for (const std::uintmax_t cut_bytes : {std::uintmax_t{1}, size / 3, size - 10}) {
+  for (const std::uintmax_t cut_bytes : {std::uintmax_t{1}, size / 3 + 1, size - 10}) {
     write_log(log_, GetParam().make_events());
     std::filesystem::resize_file(log_, size - cut_bytes);
     const int status =
