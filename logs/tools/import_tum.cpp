@@ -94,6 +94,20 @@ PinholeCamera choose_camera(const TumImport& import, std::ostream& notes) {
   return camera;
 }
 
+/// Indices into `depths` and `colors`.
+std::vector<TimeMatch> pair_images(const std::filesystem::path& folder, const TimedFiles& depths,
+                                   const TimedFiles& colors, std::ostream& notes) {
+  auto matches = associate_by_time(depths.utimes, colors.utimes, kTolerance_us);
+  if (matches.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: no depth image within 20 ms of a colour image", folder.string()));
+  }
+  fmt::print(
+      notes, "frames {}; left out: {} depth and {} colour images without a partner in 20 ms\n",
+      matches.size(), depths.utimes.size() - matches.size(), colors.utimes.size() - matches.size());
+  return matches;
+}
+
 /// How the camera is held at `utime`, if truth knows of that time.
 std::optional<Eigen::Isometry3d> mounting_at(const TimedPoses& truth, std::int64_t utime) {
   const auto match = associate_by_time(std::array{utime}, truth.utimes, kTolerance_us);
@@ -123,14 +137,7 @@ class TruthWriter {
 void import_tum(const TumImport& import, std::ostream& notes) {
   const TimedFiles colors = read_files(import.folder / "rgb.txt");
   const TimedFiles depths = read_files(import.folder / "depth.txt");
-  const auto matches = associate_by_time(depths.utimes, colors.utimes, kTolerance_us);
-  if (matches.empty()) {
-    throw std::runtime_error(
-        fmt::format("{}: no depth image within 20 ms of a colour image", import.folder.string()));
-  }
-  fmt::print(
-      notes, "frames {}; left out: {} depth and {} colour images without a partner in 20 ms\n",
-      matches.size(), depths.utimes.size() - matches.size(), colors.utimes.size() - matches.size());
+  const auto matches = pair_images(import.folder, depths, colors, notes);
   const PinholeCamera camera = choose_camera(import, notes);
   const TimedPoses truth = read_truth(import.folder / "groundtruth.txt", notes);
   if (truth.utimes.empty()) {

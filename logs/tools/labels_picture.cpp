@@ -115,9 +115,9 @@ class Fan {
   }
 
   const segmentation_t& segments_;
-  double reach_m_;
+  double reach_m_ = 0.0;
   cv::Point2d origin_;
-  double scale_px_per_m_;
+  double scale_px_per_m_ = 0.0;
 };
 
 }  // namespace

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "logs/tools/canvas.h"
-#include "logs/tools/covariance_ellipse.h"
-#include "logs/tools/score_trajectory.h"
+#include "logs/tools/map_scene.h"
 
 namespace roomwise {
 namespace {
@@ -27,100 +25,10 @@ constexpr int kWidth_px = 1400;
 constexpr int kHeight_px = 1000;
 const cv::Rect2d kPlot{40.0, 90.0, 1060.0, 870.0};
 
-/// Corners of what is to be seen, in the world.
-struct Bounds {
-  Eigen::Vector2d low_m = Eigen::Vector2d::Constant(std::numeric_limits<double>::max());
-  Eigen::Vector2d high_m = -low_m;
-
-  void hold(const Eigen::Vector2d& p_m) {
-    low_m = low_m.cwiseMin(p_m);
-    high_m = high_m.cwiseMax(p_m);
-  }
-  void hold(const Points2& points) {
-    for (const Eigen::Vector2d& p_m : points) hold(p_m);
-  }
-  bool empty() const { return low_m.x() > high_m.x(); }
-  Eigen::Vector2d size_m() const { return high_m - low_m; }
-};
-
-/// Everything the picture shows, in one frame.
-struct Scene {
-  Points2 truth;
-  Points2 odometry;
-  Points2 estimate;
-  std::vector<MapPoint> true_landmarks;
-  std::vector<MapPoint> landmarks;
-  std::vector<Points2> ellipses;  ///< of the landmarks
-  std::string caption;
-
-  /// The path whose start is marked.
-  const Points2& start_path() const {
-    return !truth.empty() ? truth : !estimate.empty() ? estimate : odometry;
-  }
-};
-
-Points2 places_of(const Trajectory& trajectory, const Pose2& T_world_path) {
-  Points2 points;
-  for (const auto& timed : trajectory) {
-    points.push_back(transform(T_world_path, timed.pose.position_m()));
-  }
-  return points;
-}
-
-void add_map(const Recording& recording, const Pose2& T_world_map, Scene& scene) {
-  const Eigen::Matrix2d R = rotation2(T_world_map.heading_rad);
-  for (const map_landmark_t& landmark : recording.map->map_landmarks) {
-    const Eigen::Vector2d p_m = transform(T_world_map, {landmark.map_x_m, landmark.map_y_m});
-    Eigen::Matrix2d covariance_m2;
-    covariance_m2 << landmark.covariance_x_x_m2, landmark.covariance_x_y_m2,
-        landmark.covariance_x_y_m2, landmark.covariance_y_y_m2;
-    scene.landmarks.push_back({landmark.identity, p_m});
-    scene.ellipses.push_back(ellipse_outline(p_m, R * covariance_m2 * R.transpose()));
-  }
-}
-
-Scene scene_of(const Recording& recording) {
-  Scene scene;
-  Pose2 T_world_map;
-  Pose2 T_world_odom;
-  if (const auto score = score_trajectory(recording.poses, recording.truth)) {
-    T_world_map = T_world_odom = score->T_world_map_aligned;
-    scene.caption = fmt::format("estimate aligned to truth, RMS {:.3f} m", score->ate_aligned_m);
-  } else if (const auto dead_reckoning = score_trajectory(recording.odometry, recording.truth)) {
-    T_world_odom = dead_reckoning->T_world_map_aligned;
-    scene.caption =
-        fmt::format("odometry aligned to truth, RMS {:.3f} m", dead_reckoning->ate_aligned_m);
-  }
-  scene.truth = places_of(recording.truth, Pose2{});
-  scene.odometry = places_of(recording.odometry, T_world_odom);
-  scene.estimate = places_of(recording.poses, T_world_map);
-  scene.true_landmarks = recording.true_landmarks;
-  if (recording.map) add_map(recording, T_world_map, scene);
-  return scene;
-}
-
-/// What is known well decides; odometry, which may have drifted anywhere, adds half as much again.
-Bounds bounds_of(const Scene& scene) {
-  Bounds bounds;
-  bounds.hold(scene.truth);
-  bounds.hold(scene.estimate);
-  for (const MapPoint& landmark : scene.true_landmarks) bounds.hold(landmark.p_m);
-  for (const MapPoint& landmark : scene.landmarks) bounds.hold(landmark.p_m);
-  Bounds drifted;
-  drifted.hold(scene.odometry);
-  if (drifted.empty()) return bounds;
-  if (bounds.empty()) return drifted;
-  const Eigen::Vector2d reach_m = 0.25 * bounds.size_m();
-  Bounds both = bounds;
-  both.hold(drifted.low_m.cwiseMax(bounds.low_m - reach_m));
-  both.hold(drifted.high_m.cwiseMin(bounds.high_m + reach_m));
-  return both;
-}
-
 /// From the world (y up) to the picture (y down).
 class View {
  public:
-  explicit View(const Bounds& bounds) {
+  explicit View(const MapBounds& bounds) {
     constexpr double kMargin_px = 45.0;
     constexpr double kSmallest_m = 0.5;
     const Eigen::Vector2d size_m = bounds.size_m().cwiseMax(kSmallest_m);
@@ -155,7 +63,7 @@ class View {
   }
 
  private:
-  double scale_px_per_m_;
+  double scale_px_per_m_ = 0.0;
   Eigen::Vector2d centre_m_;
 };
 
@@ -188,7 +96,7 @@ void draw_identity(Canvas& canvas, const View& view, const MapPoint& landmark) {
   canvas.outlined_text(start, fmt::format("{}", landmark.identity), 9.0, kInk, kPaper);
 }
 
-void draw_landmarks(Canvas& canvas, const View& view, const Scene& scene) {
+void draw_landmarks(Canvas& canvas, const View& view, const MapScene& scene) {
   for (const Points2& ellipse : scene.ellipses) draw_ellipse(canvas, view, ellipse);
   for (const MapPoint& landmark : scene.true_landmarks) {
     canvas.cross(view.pixel(landmark.p_m), 7.0, kInk, 1.5);
@@ -223,7 +131,7 @@ void draw_scale_bar(Canvas& canvas, const View& view) {
               kInk);
 }
 
-void draw_scene(Canvas& canvas, const View& view, const Scene& scene) {
+void draw_scene(Canvas& canvas, const View& view, const MapScene& scene) {
   canvas.clip(kPlot);
   draw_grid(canvas, view);
   canvas.polyline(view.pixels(scene.odometry), kOdometry, 1.0);
@@ -274,7 +182,7 @@ class Legend {
   double y_px_ = 116;
 };
 
-void draw_frame(Canvas& canvas, const Scene& scene, const std::string& title) {
+void draw_frame(Canvas& canvas, const MapScene& scene, const std::string& title) {
   const cv::Point2d a = kPlot.tl();
   const cv::Point2d b = kPlot.br();
   canvas.polyline({a, {b.x, a.y}, b, {a.x, b.y}, a}, kFaintInk, 1.0);
@@ -292,8 +200,8 @@ void draw_frame(Canvas& canvas, const Scene& scene, const std::string& title) {
 }  // namespace
 
 cv::Mat3b draw_map(const Recording& recording, const std::string& title) {
-  const Scene scene = scene_of(recording);
-  const Bounds bounds = bounds_of(scene);
+  const MapScene scene = map_scene_of(recording);
+  const MapBounds bounds = map_bounds(scene);
   if (bounds.empty()) {
     throw std::runtime_error("nothing to draw: needs POSE, ODOMETRY, TRUTH or LANDMARK_MAP");
   }
