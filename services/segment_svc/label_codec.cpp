@@ -25,7 +25,11 @@ void LabelEncoder::encode(const std::vector<std::uint8_t>& labels, int width_px,
                         labels.data(), labels.size(), kLevel);
   if (ZSTD_isError(size) != 0U) throw std::logic_error(ZSTD_getErrorName(size));
   message.label_data.resize(size);
-  message.label_size = static_cast<std::int32_t>(size);
+  if (size >= labels.size()) {
+    message.label_encoding = segmentation_t::ENCODING_RAW8;
+    message.label_data = labels;
+  }
+  message.label_size = static_cast<std::int32_t>(message.label_data.size());
 }
 
 }  // namespace roomwise

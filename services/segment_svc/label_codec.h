@@ -9,7 +9,8 @@
 
 namespace roomwise {
 
-/// Puts a label image into a SEGMENTS message, in one zstd frame. Keeps its memory.
+/// Puts a label image into a SEGMENTS message, in one zstd frame, or as it is where that is
+/// smaller. Keeps its memory.
 class LabelEncoder {
  public:
   LabelEncoder();

@@ -1,5 +1,7 @@
 #include "services/segment_svc/segment_service.h"
 
+#include <filesystem>
+#include <stdexcept>
 #include <variant>
 
 #include "services/segment_svc/core/training.h"
@@ -7,6 +9,8 @@
 
 namespace roomwise {
 namespace {
+
+constexpr std::size_t kColorMemory_bytes = 24U << 20U;  // some ten seconds of JPEG, or one of raw
 
 std::vector<segment::TrainingRectangle> to_rectangles(const segment_training_t& message) {
   std::vector<segment::TrainingRectangle> rectangles;
@@ -37,8 +41,6 @@ void fill_distances(const segment::ViewDistances& distances, segmentation_t& mes
   message.class_fraction_ratio.assign(fraction.begin(), fraction.end());
   message.class_mean_distance_m.assign(mean_m.begin(), mean_m.end());
   message.mean_distance_m = distances.mean_m;
-  message.near_distance_m = distances.near_m;
-  message.corridor_unknown_ratio = distances.corridor_unknown_ratio;
 }
 
 void fill_bearings(const std::array<segment::BearingBin, segment::FreeRange::kBins>& bearings,
@@ -57,8 +59,12 @@ void fill_bearings(const std::array<segment::BearingBin, segment::FreeRange::kBi
 }  // namespace
 
 SegmentService::SegmentService(Bus& bus, const Params& params)
-    : bus_(bus), params_(params), segmenter_(params) {
-  if (!params_.model_path.empty()) {
+    : bus_(bus),
+      params_(params),
+      decoder_(params.model == "gaussian" ? ColorUse::kDecode : ColorUse::kSkip),
+      colors_(kColorMemory_bytes),
+      segmenter_(params) {
+  if (!params_.model_path.empty() && std::filesystem::exists(params_.model_path)) {
     segmenter_.set_classifier(segment::GreyClassifier(segment::load_model(params_.model_path)));
   }
   bus_.subscribe(
@@ -67,27 +73,41 @@ SegmentService::SegmentService(Bus& bus, const Params& params)
 }
 
 void SegmentService::on_frame(const kinect_frame_t& message) {
+  colors_.keep(message);
   const FrameResult result = decoder_.decode(message, frame_);
-  has_frame_ = result == FrameResult::kOk;
-  if (!has_frame_) return bus_.count(counter_name(result));
+  if (result != FrameResult::kOk) return bus_.count(counter_name(result));
   segmenter_.segment(frame_, segmentation_);
   if (!segmentation_.floor.trusted) bus_.count("floor_untrusted");
+  if (params_.model != segmenter_.model_in_force()) bus_.count("model_not_in_force");
   fill_message();
   bus_.publish(channels::kSegments, message_);
 }
 
 void SegmentService::on_training(const segment_training_t& message) {
-  if (!has_frame_ || message.train_frame_utime != frame_.utime) {
-    return bus_.count("training_other_frame");
+  ColorImage color;
+  if (!colors_.recall(message.train_frame_utime, color)) {
+    return bus_.count("training_frame_not_kept");
   }
-  const auto learned =
-      segment::train(frame_.color, to_rectangles(message), segment::GreyStatistics::kAverage);
+  const auto learned = segment::train(color, to_rectangles(message),
+                                      params_.training_statistics == "threshold"
+                                          ? segment::GreyStatistics::kThreshold
+                                          : segment::GreyStatistics::kAverage);
   if (const auto* fault = std::get_if<segment::TrainingFault>(&learned)) {
     return bus_.count(name_of(*fault));
   }
-  const auto& gaussians = std::get<segment::GreyClassifier::Gaussians>(learned);
+  learn(std::get<segment::GreyClassifier::Gaussians>(learned));
+}
+
+void SegmentService::learn(const segment::GreyClassifier::Gaussians& gaussians) {
   segmenter_.set_classifier(segment::GreyClassifier(gaussians));
-  if (!params_.model_path.empty()) segment::save_model(params_.model_path, gaussians);
+  bus_.count("training_learned");
+  if (params_.model_path.empty() || bus_.is_replay()) return;
+  try {
+    segment::save_model(params_.model_path, gaussians);
+  } catch (const std::runtime_error& error) {  // a full disk is no reason to stop looking
+    bus_.count("model_not_saved");
+    bus_.note_error(error.what());
+  }
 }
 
 void SegmentService::fill_message() {
@@ -99,6 +119,8 @@ void SegmentService::fill_message() {
                         message_);
   fill_floor(segmentation_.floor, message_);
   fill_distances(segmentation_.distances, message_);
+  message_.near_distance_m = segmentation_.corridor.near_m;
+  message_.corridor_unknown_ratio = segmentation_.corridor.unknown_ratio;
   fill_bearings(segmentation_.bearings, message_);
 }
 

@@ -1,11 +1,13 @@
 #pragma once
-#include <Eigen/Core>
-#include <array>
+#include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "common/image/rgbd_frame.h"
 #include "services/segment_svc/core/camera_view.h"
 #include "services/segment_svc/core/floor_plane.h"
+#include "services/segment_svc/core/floor_points.h"
+#include "services/segment_svc/core/floor_search.h"
 #include "services/segment_svc/core/segment_params.h"
 
 namespace roomwise::segment {
@@ -19,38 +21,34 @@ struct FloorEstimate {
 
 /// Finds the floor anew in every frame, so that a camera that tips or climbs does no harm.
 ///
-/// A grid of depth points votes for planes near the mounting's tilt at any allowed height: points
-/// within 6 cm count for a plane, points more than 10 cm below it count twice against (a table top
-/// or shelf is not the floor). The best of these, of the last frame's plane and of the mounting's
-/// tilt at the last height is refined by three rounds of weighted least squares over a shrinking
-/// band. A plane is believed if enough points lie on it, it is not far from the mounting's tilt,
-/// and it lies within the allowed heights: so a wall never becomes the floor.
+/// It is followed from frame to frame: the better of the last plane as the camera saw it, as its
+/// mounting moved, and of its height at the mounting's tilt, refined by rounds of weighted least
+/// squares over a shrinking band. Where there is no last plane, or it is lost, the mounting's own
+/// plane is tried and then FloorSearch's. A plane is believed if enough points lie on it and crowd
+/// there, it is near the mounting's tilt, and it lies within the allowed heights: so a wall never
+/// becomes the floor. A plane with much beneath it gives way to a lower one (it was a table), but
+/// for the one the mounting says (then what is beneath are stairs).
 class FloorFit {
  public:
-  explicit FloorFit(const SegmentParams& params) : params_(params) {}
+  explicit FloorFit(const SegmentParams& params);
 
   FloorEstimate fit(const RgbdFrame& frame, const CameraView& view);
 
  private:
-  struct Point {
-    Eigen::Vector3f p_camera_m;
-    float quantum_m;  ///< depth of one disparity quantum here
-  };
-  void sample(const RgbdFrame& frame, const CameraView& view);
-  FloorPlane search(const FloorPlane& mounted);
-  FloorPlane best_height(const Eigen::Vector3d& normal, int& best_votes);
-  int votes(const FloorPlane& plane) const;
-  FloorPlane refine(const FloorPlane& start, const FloorPlane& mounted) const;
-  FloorPlane refine_once(const FloorPlane& start, const FloorPlane& mounted, double band_m) const;
-  int count_inliers(const FloorPlane& plane) const;
+  FloorPlane predict(const FloorPlane& mounted, const Eigen::Isometry3d& T_robot_camera) const;
+  std::optional<FloorEstimate> track(const FloorPlane& mounted,
+                                     const Eigen::Isometry3d& T_robot_camera);
+  std::optional<FloorEstimate> find(const FloorPlane& mounted);
+  std::optional<FloorEstimate> settle(const FloorPlane& start, const FloorPlane& mounted);
+  FloorPlane refine(const FloorPlane& start, double band_m) const;
   bool is_allowed(const FloorPlane& plane, const FloorPlane& mounted) const;
 
-  static constexpr int kHeightBins = 160;  // of 2 cm: up to 3.2 m
-
   SegmentParams params_;
-  std::vector<Point> points_;
-  std::array<int, kHeightBins> below_{};  // points at most this far below the camera
-  FloorEstimate last_;
+  FloorSearch search_;
+  std::vector<FloorPoint> points_;
+  int beneath_ = 0;                 // points under the plane that settled last
+  std::optional<FloorPlane> last_;  // last one believed
+  Eigen::Isometry3d T_robot_last_;  // mounting it was seen from
 };
 
 }  // namespace roomwise::segment

@@ -21,18 +21,21 @@ struct HeightRule {
 /// A pixel's height is depth * (slope of its column + slope of its row) + camera height.
 ROOMWISE_MULTIVERSION
 void label_row(const std::uint16_t* steps, const float* slope_of_column, float slope_of_row,
-               const HeightRule& rule, std::size_t width, std::uint8_t* labels) {
+               HeightRule rule, std::size_t width, std::uint8_t* labels) {
   for (std::size_t u = 0; u < width; ++u) {
     const float z_m = rule.unit_m * static_cast<float>(steps[u]);
     const float slope = slope_of_column[u] + slope_of_row;
     const float height_m = z_m * slope + rule.camera_height_m;
     const float sigma_m = z_m * z_m * rule.quantum_per_m * std::abs(slope);
-    const bool is_known = z_m > 0.0F && z_m <= rule.range_max_m;
-    const bool is_floor = std::abs(height_m) <= rule.floor_tolerance_m + sigma_m;
-    const bool is_drop = height_m < -(rule.drop_off_depth_m + 3.0F * sigma_m);
-    const int standing = height_m > 0.0F ? kObstacle : kUnknown;
-    const int known = is_floor ? kAccessible : is_drop ? kDropOff : standing;
-    labels[u] = static_cast<std::uint8_t>(is_known ? known : kUnknown);
+    const float floor_band_m = rule.floor_tolerance_m + sigma_m;
+    const float drop_off_m = -(rule.drop_off_depth_m + 3.0F * sigma_m);
+    // One choice after another, no two in one condition: so the compiler makes selects of them.
+    int label = height_m > 0.0F ? kObstacle : kUnknown;
+    label = height_m < drop_off_m ? kDropOff : label;
+    label = std::abs(height_m) <= floor_band_m ? kAccessible : label;
+    label = z_m <= rule.range_max_m ? label : kUnknown;
+    label = steps[u] > 0 ? label : kUnknown;
+    labels[u] = static_cast<std::uint8_t>(label);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "services/segment_svc/core/labels.h"
@@ -13,8 +14,9 @@ constexpr int kCell_px = 16;
 constexpr int kStride_px = 2;   // every second pixel each way says enough
 constexpr int kPixelsMin = 24;  // of 64
 constexpr float kResidual_quanta = 1.5F;
-constexpr float kUpright = 0.2F;      // |cosine| between a wall's normal and up
-constexpr float kSameNormal = 0.95F;  // cosine: 18 degrees
+constexpr float kOnWall_quanta = 4.0F;  // a pixel, against its own or a neighbour's plane
+constexpr float kUpright = 0.2F;        // |cosine| between a wall's normal and up
+constexpr float kSameNormal = 0.95F;    // cosine: 18 degrees
 constexpr float kWidth_m = 0.5F;
 constexpr float kHeight_m = 0.6F;
 
@@ -23,8 +25,8 @@ constexpr float kHeight_m = 0.6F;
 void WallCells::mark(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                      std::vector<std::uint8_t>& labels) {
   quantum_per_m_ = view.quantum_per_m();
-  columns_ = view.width_px() / kCell_px;
-  rows_ = view.height_px() / kCell_px;
+  columns_ = (view.width_px() + kCell_px - 1) / kCell_px;
+  rows_ = (view.height_px() + kCell_px - 1) / kCell_px;
   cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
@@ -33,7 +35,7 @@ void WallCells::mark(const RgbdFrame& frame, const CameraView& view, const Floor
     }
   }
   join(floor);
-  relabel(view, labels);
+  relabel(frame, view, labels);
 }
 
 WallCells::Cell WallCells::fit(const RgbdFrame& frame, const CameraView& view,
@@ -43,12 +45,14 @@ WallCells::Cell WallCells::fit(const RgbdFrame& frame, const CameraView& view,
   Eigen::Vector3f right_side = Eigen::Vector3f::Zero();
   float sum_squared = 0.0F;
   int count = 0;
-  const float x0 = view.ray_x()[static_cast<std::size_t>(column * kCell_px + kCell_px / 2)];
-  const float y0 = view.ray_y()[static_cast<std::size_t>(row * kCell_px + kCell_px / 2)];
+  const int u_end = std::min((column + 1) * kCell_px, view.width_px());
+  const int v_end = std::min((row + 1) * kCell_px, view.height_px());
+  const float x0 = view.ray_x()[static_cast<std::size_t>((column * kCell_px + u_end) / 2)];
+  const float y0 = view.ray_y()[static_cast<std::size_t>((row * kCell_px + v_end) / 2)];
   const auto unit_m = static_cast<float>(view.unit_m());
   const auto width = static_cast<std::size_t>(view.width_px());
-  for (int v = row * kCell_px; v < (row + 1) * kCell_px; v += kStride_px) {
-    for (int u = column * kCell_px; u < (column + 1) * kCell_px; u += kStride_px) {
+  for (int v = row * kCell_px; v < v_end; v += kStride_px) {
+    for (int u = column * kCell_px; u < u_end; u += kStride_px) {
       const std::size_t pixel = static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u);
       if (labels[pixel] != kObstacle) continue;
       const float inverse_depth = 1.0F / (unit_m * static_cast<float>(frame.depth.steps[pixel]));
@@ -128,17 +132,44 @@ bool WallCells::is_wall(const FloorPlane& floor) const {
   return high - low > kHeight_m && last - first > kWidth_m;
 }
 
-void WallCells::relabel(const CameraView& view, std::vector<std::uint8_t>& labels) const {
-  const auto width = static_cast<std::size_t>(view.width_px());
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const int patch = cells_[i].patch;
-    if (patch < 0 || patch_is_wall_[static_cast<std::size_t>(patch)] == 0) continue;
-    const auto columns = static_cast<std::size_t>(columns_);
-    std::uint8_t* corner =
-        labels.data() + (i / columns) * kCell_px * width + (i % columns) * kCell_px;
-    for (std::size_t v = 0; v < kCell_px; ++v) {
-      std::replace(corner + v * width, corner + v * width + kCell_px, std::uint8_t{kObstacle},
-                   std::uint8_t{kWall});
+bool WallCells::is_wall_cell(int column, int row) const {
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return false;
+  const int patch = cells_[static_cast<std::size_t>(row * columns_ + column)].patch;
+  return patch >= 0 && patch_is_wall_[static_cast<std::size_t>(patch)] != 0;
+}
+
+void WallCells::relabel(const RgbdFrame& frame, const CameraView& view,
+                        std::vector<std::uint8_t>& labels) const {
+  constexpr std::array<std::array<int, 2>, 5> kSelfThenBeside = {
+      {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      for (const auto& [right, down] : kSelfThenBeside) {
+        if (!is_wall_cell(column + right, row + down)) continue;
+        const auto i = static_cast<std::size_t>((row + down) * columns_ + column + right);
+        relabel_cell(frame, view, column, row, cells_[i], labels);
+        if (right == 0 && down == 0) break;
+      }
+    }
+  }
+}
+
+/// Turns the cell's obstacle pixels that lie on the plane into wall.
+void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
+                             const Cell& plane, std::vector<std::uint8_t>& labels) const {
+  const int u_end = std::min((column + 1) * kCell_px, view.width_px());
+  const int v_end = std::min((row + 1) * kCell_px, view.height_px());
+  const auto unit_m = static_cast<float>(view.unit_m());
+  const float off_max = kOnWall_quanta * quantum_per_m_;
+  for (int v = row * kCell_px; v < v_end; ++v) {
+    const float y = view.ray_y()[static_cast<std::size_t>(v)];
+    const auto first = static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px());
+    for (auto u = static_cast<std::size_t>(column * kCell_px); u < static_cast<std::size_t>(u_end);
+         ++u) {
+      if (labels[first + u] != kObstacle) continue;
+      const float z_m = unit_m * static_cast<float>(frame.depth.steps[first + u]);
+      const float inverse_m = plane.m.x() * view.ray_x()[u] + plane.m.y() * y + plane.m.z();
+      if (std::abs(inverse_m * z_m - 1.0F) <= off_max * z_m) labels[first + u] = kWall;
     }
   }
 }

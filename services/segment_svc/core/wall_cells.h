@@ -15,7 +15,8 @@ namespace roomwise::segment {
 /// The image is cut into cells of 16 x 16 pixels. On a plane the inverse depth is linear in pixel
 /// coordinates, 1/z = m . (x, y, 1) with m the plane's normal over its distance; each cell gets
 /// that fit by least squares over its obstacle pixels. Neighbouring flat, upright cells of one
-/// plane are joined, and what is large enough is a wall.
+/// plane are joined, and what is large enough is a wall; so are the obstacle pixels of the cells
+/// beside it that lie on its plane.
 class WallCells {
  public:
   /// Turns obstacle labels of wall cells into wall labels.
@@ -35,7 +36,11 @@ class WallCells {
   void grow(std::size_t start, int patch);
   bool is_wall(const FloorPlane& floor) const;
   bool are_one_plane(const Cell& a, const Cell& b) const;
-  void relabel(const CameraView& view, std::vector<std::uint8_t>& labels) const;
+  bool is_wall_cell(int column, int row) const;
+  void relabel(const RgbdFrame& frame, const CameraView& view,
+               std::vector<std::uint8_t>& labels) const;
+  void relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
+                    const Cell& plane, std::vector<std::uint8_t>& labels) const;
 
   float quantum_per_m_ = 0.0F;
   int columns_ = 0;
