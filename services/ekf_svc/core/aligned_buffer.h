@@ -23,7 +23,7 @@ class AlignedBuffer {
  private:
   static constexpr std::size_t kAlignment = 64;
   std::unique_ptr<void, void (*)(void*)> memory_;
-  double* data_;
+  double* data_ = nullptr;
 };
 
 }  // namespace roomwise::ekf
