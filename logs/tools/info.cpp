@@ -16,13 +16,18 @@
 namespace roomwise {
 namespace {
 
+/// From one time to another; a log may hold any times, and their difference may not fit a Duration.
+double span_s(Time from, Time to) {
+  return 1e-6 * (static_cast<double>(utime_of(to)) - static_cast<double>(utime_of(from)));
+}
+
 /// One channel's messages, as they lie in the file.
 struct ChannelInfo {
   std::int64_t messages = 0;
   std::uint64_t bytes = 0;
   Time first{};
   Time last{};
-  Duration longest_gap{0};
+  double longest_gap_s = 0.0;
 };
 
 using ChannelInfos = std::map<std::string, ChannelInfo, std::less<>>;
@@ -31,7 +36,7 @@ void account(const LogEvent& event, ChannelInfo& info) {
   if (info.messages == 0) {
     info.first = event.time;
   } else {
-    info.longest_gap = std::max(info.longest_gap, event.time - info.last);
+    info.longest_gap_s = std::max(info.longest_gap_s, span_s(info.last, event.time));
   }
   info.last = event.time;
   info.bytes += event.data.size();
@@ -53,13 +58,13 @@ void subscribe_all(Bus& bus) {
 }
 
 double rate_hz(const ChannelInfo& info) {
-  const double span_s = seconds(info.last - info.first);
-  return span_s > 0.0 ? static_cast<double>(info.messages - 1) / span_s : 0.0;
+  const double whole_s = span_s(info.first, info.last);
+  return whole_s > 0.0 ? static_cast<double>(info.messages - 1) / whole_s : 0.0;
 }
 
 std::string time_text(Time time) {
   constexpr Time kYear10000 = time_from_utime(253402300800000000);
-  const double time_s = seconds(time.time_since_epoch());
+  const double time_s = span_s(Time{}, time);
   if (time < Time{} || time >= kYear10000) return fmt::format("{:.6f}", time_s);
   return fmt::format("{:.6f}  {:%Y-%m-%d %H:%M:%S} UTC", time_s,
                      std::chrono::time_point_cast<std::chrono::seconds>(time));
@@ -78,7 +83,7 @@ std::string summary(const std::filesystem::path& path, const LogReading& reading
     messages += info.messages;
   }
   return text + fmt::format("messages  {}\nfirst     {}\nlast      {}\nduration  {:.6f} s\n",
-                            messages, time_text(first), time_text(last), seconds(last - first));
+                            messages, time_text(first), time_text(last), span_s(first, last));
 }
 
 std::string table(const LogReading& reading, const ChannelInfos& infos) {
@@ -93,7 +98,7 @@ std::string table(const LogReading& reading, const ChannelInfos& infos) {
     const bool counted = seen != reading.statistics.channels.end();
     const ChannelStatistics statistics = counted ? seen->second : ChannelStatistics{};
     text += fmt::format(fmt::runtime(kRow), name, type == types.end() ? "unknown" : type->second,
-                        info.messages, rate_hz(info), seconds(info.longest_gap), statistics.missed,
+                        info.messages, rate_hz(info), info.longest_gap_s, statistics.missed,
                         statistics.restarts, statistics.undecodable, info.bytes);
   }
   return text;
