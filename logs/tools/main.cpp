@@ -21,6 +21,7 @@ void add_subcommands(CLI::App& rwlog) {
   add_export_landmarks_png(convert);
   add_export_labels_png(convert);
   add_score(rwlog);
+  add_train(rwlog);
 }
 
 }  // namespace

@@ -16,5 +16,6 @@ void add_export_map_png(CLI::App& parent);
 void add_export_landmarks_png(CLI::App& parent);
 void add_export_labels_png(CLI::App& parent);
 void add_score(CLI::App& parent);
+void add_train(CLI::App& parent);
 
 }  // namespace roomwise

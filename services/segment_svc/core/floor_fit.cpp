@@ -10,7 +10,7 @@ namespace roomwise::segment {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr std::array<double, 4> kBands_m = {0.10, 0.08, 0.05, 0.03};
+constexpr std::array<double, 6> kBands_m = {0.10, 0.10, 0.10, 0.08, 0.05, 0.03};
 
 /// Neighbouring grid points share much of their error (it is correlated over about 9 pixels, and
 /// lenses bend): this many count as one against the prior.
@@ -49,7 +49,7 @@ FloorEstimate FloorFit::fit(const RgbdFrame& frame, const CameraView& view) {
   const FloorPlane mounted = mounted_floor(frame.T_robot_camera);
   sample_points(frame, view, params_.range_max_m, points_);
   std::optional<FloorEstimate> found = track(mounted, frame.T_robot_camera);
-  if (!found) found = settle(mounted, mounted);
+  if (!found) found = start(mounted);
   const bool is_high = found && 10 * beneath_ > found->inliers;
   if (!found || (is_high && !is_as_mounted(found->plane, mounted))) {
     if (const auto lower = find(mounted)) found = lower;
@@ -86,16 +86,33 @@ FloorPlane FloorFit::predict(const FloorPlane& mounted,
   return best;
 }
 
+/// With nothing to follow: the mounting's own plane, or what the search finds close to it. From
+/// some degrees off, the refinement can settle askew on a part of the floor; the search does not,
+/// and then has more points.
+std::optional<FloorEstimate> FloorFit::start(const FloorPlane& mounted) {
+  constexpr double kSameFloor_m = 0.30;
+  const std::optional<FloorEstimate> near = settle(mounted, mounted);
+  if (!near) return std::nullopt;
+  const int beneath_near = beneath_;
+  const std::optional<FloorEstimate> searched = find(mounted);
+  if (searched && searched->inliers > near->inliers &&
+      std::abs(searched->plane.height_m - near->plane.height_m) <= kSameFloor_m) {
+    return searched;
+  }
+  beneath_ = beneath_near;
+  return near;
+}
+
 /// The lowest horizontal surface.
 std::optional<FloorEstimate> FloorFit::find(const FloorPlane& mounted) {
-  for (const FloorPlane& start : search_.search(points_, mounted)) {
-    if (const auto found = settle(start, mounted)) return found;
+  for (const FloorPlane& candidate : search_.search(points_, mounted)) {
+    if (const auto found = settle(candidate, mounted)) return found;
   }
   return std::nullopt;
 }
 
-std::optional<FloorEstimate> FloorFit::settle(const FloorPlane& start, const FloorPlane& mounted) {
-  FloorPlane plane = start;
+std::optional<FloorEstimate> FloorFit::settle(const FloorPlane& from, const FloorPlane& mounted) {
+  FloorPlane plane = from;
   for (const double band_m : kBands_m) plane = refine(plane, band_m);
   const PlaneSupport support =
       support_of(plane, points_, params_.floor_tolerance_m, params_.drop_off_depth_m);

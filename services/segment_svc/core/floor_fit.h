@@ -38,8 +38,9 @@ class FloorFit {
   FloorPlane predict(const FloorPlane& mounted, const Eigen::Isometry3d& T_robot_camera) const;
   std::optional<FloorEstimate> track(const FloorPlane& mounted,
                                      const Eigen::Isometry3d& T_robot_camera);
+  std::optional<FloorEstimate> start(const FloorPlane& mounted);
   std::optional<FloorEstimate> find(const FloorPlane& mounted);
-  std::optional<FloorEstimate> settle(const FloorPlane& start, const FloorPlane& mounted);
+  std::optional<FloorEstimate> settle(const FloorPlane& from, const FloorPlane& mounted);
   FloorPlane refine(const FloorPlane& start, double band_m) const;
   bool is_allowed(const FloorPlane& plane, const FloorPlane& mounted) const;
 

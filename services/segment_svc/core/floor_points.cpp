@@ -14,6 +14,8 @@ void sample_points(const RgbdFrame& frame, const CameraView& view, double range_
                    std::vector<FloorPoint>& points) {
   points.clear();
   const int step_px = std::max(1, static_cast<int>(std::lround(view.width_px() / kPointsAcross)));
+  const auto across = static_cast<std::size_t>(view.width_px() / step_px + 1);
+  points.reserve(across * static_cast<std::size_t>(view.height_px() / step_px + 1));
   const auto unit_m = static_cast<float>(view.unit_m());
   const auto far_m = static_cast<float>(range_max_m);
   for (int v = step_px / 2; v < view.height_px(); v += step_px) {

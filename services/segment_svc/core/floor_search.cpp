@@ -64,6 +64,7 @@ int FloorSearch::up_to(int bin) const {
 
 void FloorSearch::collect(std::size_t point_count) {
   found_.clear();
+  found_.reserve(kPlanesMax);
   const int votes_min = std::max(kVotesMin, static_cast<int>(point_count) / kVotesMinShare);
   for (int bin = kBins - 1; bin >= 0 && found_.size() < kPlanesMax; --bin) {
     if (best_of_height_[static_cast<std::size_t>(bin)].votes < votes_min) continue;

@@ -28,6 +28,8 @@ void WallCells::mark(const RgbdFrame& frame, const CameraView& view, const Floor
   columns_ = (view.width_px() + kCell_px - 1) / kCell_px;
   rows_ = (view.height_px() + kCell_px - 1) / kCell_px;
   cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  members_.reserve(cells_.size());
+  patch_is_wall_.reserve(cells_.size());
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       cells_[static_cast<std::size_t>(row * columns_ + column)] =
