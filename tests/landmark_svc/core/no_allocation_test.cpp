@@ -1,39 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "services/landmark_svc/core/landmark_detector.h"
+#include "tests/landmark_svc/support/allocation_counter.h"
 #include "tests/landmark_svc/support/kinect_effects.h"
 #include "tests/support/synthetic_room.h"
-
-namespace {
-long allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  if (void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole)) return memory;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace roomwise::landmark {
 namespace {
@@ -54,9 +24,9 @@ long allocations_on(const RgbdFrame& frame, const char* method) {
   RgbdFrame first = frame;
   std::fill(first.depth.steps.begin(), first.depth.steps.end(), std::uint16_t{0});
   EXPECT_EQ(detector.detect(first), DetectResult::kOk);
-  const long before = allocations;
+  const long before = allocations_so_far();
   const DetectResult result = detector.detect(frame);
-  const long after = allocations;
+  const long after = allocations_so_far();
   EXPECT_EQ(result, DetectResult::kOk);
   return after - before;
 }
@@ -72,10 +42,10 @@ TEST(LandmarkDetector, AllocatesNothingAfterTheFirstFrame) {
 }
 
 TEST(LandmarkDetector, ThisTestCountsAllocations) {
-  const long before = allocations;
+  const long before = allocations_so_far();
   std::vector<int> memory;
   memory.reserve(100);
-  EXPECT_EQ(allocations, before + 1);
+  EXPECT_EQ(allocations_so_far(), before + 1);
 }
 
 }  // namespace
