@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "logs/tools/frame_picture.h"
@@ -29,8 +30,9 @@ constexpr std::array kKinds = {
 };
 
 const Kind& kind_of(const landmark_observation_t& landmark) {
-  const auto index = static_cast<std::size_t>(landmark.kind);
-  return kKinds[landmark.kind >= 0 && index < kKinds.size() ? index : 0];
+  const auto index =
+      static_cast<std::uint8_t>(landmark.kind);  // what is negative becomes too large
+  return kKinds[index < kKinds.size() ? index : 0];
 }
 
 /// From pixels of the depth image to pixels of the colour image.

@@ -53,7 +53,10 @@ void to_tangents(const float* x_m, const float* y_m, std::size_t count, std::int
 
 }  // namespace
 
-double FreeRange::first_bearing_rad() { return -(kBins / 2) * kStep_rad; }
+double FreeRange::first_bearing_rad() {
+  constexpr int kMiddle = kBins / 2;
+  return -kMiddle * kStep_rad;
+}
 double FreeRange::step_rad() { return kStep_rad; }
 
 void FreeRange::begin() { std::fill(directions_.begin(), directions_.end(), Direction{}); }
