@@ -1,40 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "services/segment_svc/core/segmenter.h"
 #include "tests/segment_svc/support/scenes.h"
-
-namespace {
-long allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  if (void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole)) return memory;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#include "tests/support/allocation_counter.h"
 
 namespace roomwise::segment {
 namespace {
@@ -57,11 +28,11 @@ long allocations_of(const char* model) {
   for (std::size_t i = 0; i < other.depth.steps.size(); ++i) {
     other.depth.steps[i] = static_cast<std::uint16_t>(600 + i * 7919 % 5000);
   }
-  const long before = allocations;
+  const long before = allocations_so_far();
   segmenter.segment(frame, result);
   segmenter.segment(other, result);
   segmenter.segment(frame, result);
-  return allocations - before;
+  return allocations_so_far() - before;
 }
 
 TEST(Segmenter, AllocatesNothingAfterTheFirstFrame) {
@@ -70,10 +41,10 @@ TEST(Segmenter, AllocatesNothingAfterTheFirstFrame) {
 }
 
 TEST(Segmenter, ThisTestCountsAllocations) {
-  const long before = allocations;
+  const long before = allocations_so_far();
   std::vector<int> memory;
   memory.reserve(100);
-  EXPECT_EQ(allocations, before + 1);
+  EXPECT_EQ(allocations_so_far(), before + 1);
 }
 
 }  // namespace
