@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "services/landmark_svc/core/landmark_detector.h"
-#include "tests/support/allocation_counter.h"
 #include "tests/landmark_svc/support/kinect_effects.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/synthetic_room.h"
 
 namespace roomwise::landmark {
