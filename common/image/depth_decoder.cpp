@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -8,6 +9,7 @@
 #include "common/image/depth_codec.h"
 #include "common/image/depth_model.h"
 #include "common/image/rans.h"
+#include "common/multiversion.h"
 
 namespace roomwise {
 namespace {
@@ -82,8 +84,8 @@ Token token_with(std::size_t number, std::size_t frequency, std::size_t start) {
 }
 
 /// Classes of the pixels below `above`, whose values are `above_out`.
-void classify(const std::uint16_t* above, const std::uint16_t* above_out, int width_px,
-              std::uint16_t* classes) {
+ROOMWISE_MULTIVERSION void classify(const std::uint16_t* above, const std::uint16_t* above_out,
+                                    int width_px, std::uint16_t* classes) {
   for (int u = 0; u < width_px - 1; ++u) {
     classes[u] =
         above_class(above[u - 1], above[u], above[u + 1], above_out[u] == 0, above_out[u + 1] == 0);
@@ -130,7 +132,7 @@ struct DepthDecoder::Memory {
   bool read_table(Bytes& bytes, Table& table);
   bool open_lanes(Bytes bytes, int width_px, int height_px, std::uint16_t* values);
   template <std::size_t kCount>
-  void decode_rows(int width_px);
+  void decode_rows(std::size_t first, int width_px);
 };
 
 DepthDecoder::DepthDecoder() : memory_(std::make_unique<Memory>()) {}
@@ -169,17 +171,22 @@ bool DepthDecoder::Memory::read_table(Bytes& bytes, Table& table) {
 
 bool DepthDecoder::Memory::open_lanes(Bytes bytes, int width_px, int height_px,
                                       std::uint16_t* values) {
-  const auto first_words = read_varint(bytes);
-  const auto second_words = read_varint(bytes);
-  if (!first_words || !second_words || 2 * (*first_words + *second_words) != bytes.size()) {
-    return false;
+  std::array<std::size_t, kLanes> lane_bytes;
+  std::size_t all_bytes = 0;
+  for (std::size_t& size : lane_bytes) {
+    const auto words = read_varint(bytes);
+    if (!words) return false;
+    size = 2 * *words;
+    all_bytes += size;
   }
-  lanes[0].coder = rans::Decoder(bytes.first(2 * *first_words));
-  lanes[1].coder = rans::Decoder(bytes.last(2 * *second_words));
+  if (all_bytes != bytes.size()) return false;
   const auto width = static_cast<std::size_t>(width_px);
-  lanes[0].out = values;
-  lanes[1].out = values + width * static_cast<std::size_t>(first_band_rows(height_px));
-  for (Lane& lane : lanes) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    Lane& lane = lanes[i];
+    lane.coder = rans::Decoder(bytes.first(lane_bytes[i]));
+    bytes = bytes.subspan(lane_bytes[i]);
+    lane.out = values;
+    values += width * static_cast<std::size_t>(band_rows(i, height_px));
     lane.above.assign(width + 1, 0);
     lane.row.resize(width + 1);
     lane.above_classes.assign(width, above_class(0, 0, 0, true, true));
@@ -187,12 +194,12 @@ bool DepthDecoder::Memory::open_lanes(Bytes bytes, int width_px, int height_px,
   return true;
 }
 
-/// One row of each of the first kCount lanes, side by side.
+/// One row of each of kCount lanes from the `first` on, side by side.
 template <std::size_t kCount>
-void DepthDecoder::Memory::decode_rows(int width_px) {
+void DepthDecoder::Memory::decode_rows(std::size_t first, int width_px) {
   std::array<Cursor, kCount> cursors;
   for (std::size_t i = 0; i < kCount; ++i) {
-    Lane& lane = lanes[i];
+    Lane& lane = lanes[first + i];
     lane.row[0] = lane.above[1];
     cursors[i] = {lane.coder,
                   lane.above_classes.data(),
@@ -207,7 +214,7 @@ void DepthDecoder::Memory::decode_rows(int width_px) {
     for (Cursor& cursor : cursors) decode_pixel(cursor, tables.data(), value_of.data(), u);
   }
   for (std::size_t i = 0; i < kCount; ++i) {
-    Lane& lane = lanes[i];
+    Lane& lane = lanes[first + i];
     lane.coder = cursors[i].coder;
     classify(lane.row.data() + 1, lane.out, width_px, lane.above_classes.data());
     lane.out += width_px;
@@ -223,9 +230,13 @@ bool DepthDecoder::Memory::decode(Layout layout, Bytes bytes, int width_px, int 
     if (!read_table(bytes, table)) return false;
   }
   if (!open_lanes(bytes, width_px, height_px, values.data())) return false;
-  for (int row = 0; row < height_px / 2; ++row) decode_rows<2>(width_px);
-  if (height_px % 2 != 0) decode_rows<1>(width_px);
-  return lanes[0].coder.at_end() && lanes[1].coder.at_end();
+  // Two lanes at a time: the registers do not suffice for four.
+  const int common_rows = band_rows(kLanes - 1, height_px);
+  for (std::size_t pair = 0; pair < kLanes; pair += 2) {
+    for (int row = 0; row < common_rows; ++row) decode_rows<2>(pair, width_px);
+  }
+  for (std::size_t i = 0; band_rows(i, height_px) > common_rows; ++i) decode_rows<1>(i, width_px);
+  return std::ranges::all_of(lanes, [](const Lane& lane) { return lane.coder.at_end(); });
 }
 
 bool DepthDecoder::decode(Bytes bytes, int width_px, int height_px,

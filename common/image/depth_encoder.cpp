@@ -8,6 +8,7 @@
 #include "common/image/depth_codec.h"
 #include "common/image/depth_model.h"
 #include "common/image/rans.h"
+#include "common/multiversion.h"
 
 namespace roomwise {
 namespace {
@@ -23,7 +24,7 @@ constexpr auto kTokenSlots = static_cast<std::uint16_t>(std::bit_ceil(kTokens));
 constexpr std::size_t kSymbols = kContexts * kTokenSlots;
 
 /// What the first pass leaves of a band for the second, in pixel order.
-struct Lane {
+struct SymbolLane {
   std::vector<Symbol> symbols;
   std::vector<std::uint16_t> folded;  ///< of the symbols that have raw bits
 };
@@ -50,8 +51,8 @@ void append_varint(std::size_t value, std::vector<std::uint8_t>& out) {
 }
 
 /// Symbols and folded residuals of a row. Every large residual gets the token kDirect + 1 here.
-void model_row(const Row& above_row, const Row& row, int width_px, Symbol* symbols,
-               std::uint16_t* folded) {
+ROOMWISE_MULTIVERSION void model_row(const Row& above_row, const Row& row, int width_px,
+                                     Symbol* symbols, std::uint16_t* folded) {
   const std::uint16_t* above = above_row.fill.data() + 1;
   const std::uint16_t* above_hole = above_row.hole.data() + 1;
   const std::uint16_t* here = row.fill.data() + 1;
@@ -79,7 +80,7 @@ struct DepthEncoder::Memory {
   Row above;
   Row row;
   std::vector<std::uint16_t> row_folded;
-  std::array<Lane, kLanes> lanes;
+  std::array<SymbolLane, kLanes> lanes;
   std::array<std::uint32_t, kSymbols> counts;
   std::array<rans::EncoderSymbol, kSymbols> codes;
   std::vector<std::uint16_t> words;
@@ -89,8 +90,8 @@ struct DepthEncoder::Memory {
   void choose_indices(bool palette);
   void append_palette(std::vector<std::uint8_t>& out) const;
   void load_row(const std::uint16_t* values, int width_px);
-  void count_row(Symbol* symbols, int width_px, Lane& lane);
-  void model_lane(const std::uint16_t* values, int width_px, int rows, Lane& lane);
+  void count_row(Symbol* symbols, int width_px, SymbolLane& lane);
+  void model_lane(const std::uint16_t* values, int width_px, int rows, SymbolLane& lane);
   void append_tables(std::vector<std::uint8_t>& out);
   void put(Symbol symbol, const std::uint16_t*& folded_end, rans::Encoder& coder) const;
   void append_lanes(std::vector<std::uint8_t>& out);
@@ -159,7 +160,7 @@ void DepthEncoder::Memory::load_row(const std::uint16_t* values, int width_px) {
 }
 
 /// Counts a row's symbols, and gives the large residuals the tokens of their size.
-void DepthEncoder::Memory::count_row(Symbol* symbols, int width_px, Lane& lane) {
+void DepthEncoder::Memory::count_row(Symbol* symbols, int width_px, SymbolLane& lane) {
 #pragma GCC unroll 4
   for (int u = 0; u < width_px; ++u) {
     if ((symbols[u] & (kTokenSlots - 1)) > kDirect) [[unlikely]] {
@@ -172,7 +173,7 @@ void DepthEncoder::Memory::count_row(Symbol* symbols, int width_px, Lane& lane) 
 }
 
 void DepthEncoder::Memory::model_lane(const std::uint16_t* values, int width_px, int rows,
-                                      Lane& lane) {
+                                      SymbolLane& lane) {
   const auto width = static_cast<std::size_t>(width_px);
   lane.symbols.resize(width * static_cast<std::size_t>(rows));
   lane.folded.clear();
@@ -215,28 +216,36 @@ inline void DepthEncoder::Memory::put(Symbol symbol, const std::uint16_t*& folde
   coder.put(codes[symbol]);
 }
 
-/// Both lanes' words, written from their last symbols to their first, side by side.
+/// The lanes' words, written from their last symbols to their first, side by side.
 void DepthEncoder::Memory::append_lanes(std::vector<std::uint8_t>& out) {
   // A token and its raw bits each move a word at most; the state is two.
-  const auto room = [](const Lane& lane) { return 2 * lane.symbols.size() + 2; };
-  words.resize(room(lanes[0]) + room(lanes[1]));
-  rans::Encoder first(words.data() + room(lanes[0]));
-  rans::Encoder second(words.data() + words.size());
-  const std::uint16_t* first_folded = lanes[0].folded.data() + lanes[0].folded.size();
-  const std::uint16_t* second_folded = lanes[1].folded.data() + lanes[1].folded.size();
-  std::size_t left = lanes[0].symbols.size();
-  for (; left > lanes[1].symbols.size(); --left) {
-    put(lanes[0].symbols[left - 1], first_folded, first);
+  const auto room = [](const SymbolLane& lane) { return 2 * lane.symbols.size() + 2; };
+  std::size_t end = 0;
+  for (const SymbolLane& lane : lanes) end += room(lane);
+  words.resize(end);
+  std::array<rans::Encoder, kLanes> coders;
+  std::array<const std::uint16_t*, kLanes> folded_ends;
+  const std::size_t common_symbols = lanes.back().symbols.size();
+  for (std::size_t i = kLanes; i-- > 0;) {
+    const SymbolLane& lane = lanes[i];
+    coders[i] = rans::Encoder(words.data() + end);
+    end -= room(lane);
+    folded_ends[i] = lane.folded.data() + lane.folded.size();
+    for (std::size_t left = lane.symbols.size(); left > common_symbols; --left) {
+      put(lane.symbols[left - 1], folded_ends[i], coders[i]);
+    }
   }
-  for (; left > 0; --left) {
-    put(lanes[0].symbols[left - 1], first_folded, first);
-    put(lanes[1].symbols[left - 1], second_folded, second);
+  for (std::size_t left = common_symbols; left > 0; --left) {
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      put(lanes[i].symbols[left - 1], folded_ends[i], coders[i]);
+    }
   }
-  for (rans::Encoder* coder : {&first, &second}) {
-    coder->finish();
-    append_varint(coder->words().size(), out);
+  for (rans::Encoder& coder : coders) {
+    coder.finish();
+    append_varint(coder.words().size(), out);
   }
-  for (const rans::Encoder& coder : {first, second}) {
+  for (const rans::Encoder& coder : coders) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(coder.words().data());
     out.insert(out.end(), bytes, bytes + coder.words().size_bytes());
   }
@@ -255,10 +264,12 @@ void DepthEncoder::encode(std::span<const std::uint16_t> values, int width_px, i
   const bool palette = memory.palette_pays(values.size());
   memory.choose_indices(palette);
   memory.counts.fill(0);
-  const int rows = first_band_rows(height_px);
-  const std::size_t second_band = width * static_cast<std::size_t>(rows);
-  memory.model_lane(values.data(), width_px, rows, memory.lanes[0]);
-  memory.model_lane(values.data() + second_band, width_px, height_px - rows, memory.lanes[1]);
+  const std::uint16_t* band = values.data();
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const int rows = band_rows(i, height_px);
+    memory.model_lane(band, width_px, rows, memory.lanes[i]);
+    band += width * static_cast<std::size_t>(rows);
+  }
 
   out.assign(std::begin(kMagic), std::end(kMagic));
   out.push_back(palette ? kPalette : kValues);

@@ -14,8 +14,8 @@
 /// tokens 0, 1, ... out of rans::kTotal; the lanes' sizes in words of 16 bits (all these as
 /// varints, seven bits a byte, the lowest first); the lanes' words.
 ///
-/// An image is two bands of rows, each coded by a lane of its own so that a processor can work on
-/// both at once. A band is coded row by row as if the row above it were all holes. Every pixel is
+/// An image is four bands of rows, each coded by a lane of its own so that a processor can work on
+/// several at once. A band is coded row by row as if the row above it were all holes. Every pixel is
 /// one token under a context made of its neighbours
 ///
 ///     ul  u  ur
@@ -32,10 +32,13 @@ constexpr std::size_t kHeaderBytes = 8;
 
 enum Layout : std::uint8_t { kStored = 0, kValues = 1, kPalette = 2 };
 
-constexpr std::size_t kLanes = 2;
+constexpr std::size_t kLanes = 4;
 
-/// The rows that the first lane has; the second has the rest, as many or one fewer.
-constexpr int first_band_rows(int height_px) { return (height_px + 1) / 2; }
+/// Rows of a lane, from the top of the image down; the first lanes may have one more than the last.
+constexpr int band_rows(std::size_t lane, int height_px) {
+  constexpr int kCount = static_cast<int>(kLanes);
+  return height_px / kCount + (static_cast<int>(lane) < height_px % kCount ? 1 : 0);
+}
 
 /// Median edge detector: the median of l, u and l + u - ul (LOCO-I: Weinberger, Seroussi, Sapiro
 /// 2000, equation 1).

@@ -158,6 +158,7 @@ void import_tum(const TumImport& import, std::ostream& notes) {
     frame.device_time_us = frame.utime;
     const auto depth_path = import.folder / depths.values[match.first];
     frame.depth = read_depth_png(depth_path, 1.0 / import.depth_scale);
+    frame.depth_registered = true;
     frame.color = read_color_as_jpeg(import.folder / colors.values[match.second]);
     if (const auto mounting = mounting_at(truth, frame.utime)) frame.T_robot_camera = *mounting;
     truth_writer.write_before(frame.utime);

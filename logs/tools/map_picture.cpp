@@ -27,11 +27,11 @@ const cv::Rect2d kPlot{40.0, 90.0, 1060.0, 870.0};
 class View {
  public:
   explicit View(const MapBounds& bounds) {
-    constexpr double kMargin_px = 45.0;
+    constexpr double kBorder_px = 45.0;
     constexpr double kSmallest_m = 0.5;
     const Eigen::Vector2d size_m = bounds.size_m().cwiseMax(kSmallest_m);
-    scale_px_per_m_ = std::min((kPlot.width - 2 * kMargin_px) / size_m.x(),
-                               (kPlot.height - 2 * kMargin_px) / size_m.y());
+    scale_px_per_m_ = std::min((kPlot.width - 2 * kBorder_px) / size_m.x(),
+                               (kPlot.height - 2 * kBorder_px) / size_m.y());
     centre_m_ = 0.5 * (bounds.low_m + bounds.high_m);
   }
 

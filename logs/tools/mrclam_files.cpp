@@ -34,7 +34,7 @@ MrclamMeasurement measurement_in(const TextTable& table) {
   return measurement;
 }
 
-MrclamPose pose_in(const TextTable& table) {
+MrclamPose true_pose_in(const TextTable& table) {
   return {table.utime(0, "time"), table.number(1, "x"), table.number(2, "y"),
           table.number(3, "orientation")};
 }
@@ -67,7 +67,7 @@ MrclamFiles read_mrclam(const std::filesystem::path& folder, int robot) {
   };
   return {read_timed<MrclamVelocity>(of_robot("Odometry"), 3, velocity_in),
           read_timed<MrclamMeasurement>(of_robot("Measurement"), 4, measurement_in),
-          read_timed<MrclamPose>(of_robot("Groundtruth"), 4, pose_in),
+          read_timed<MrclamPose>(of_robot("Groundtruth"), 4, true_pose_in),
           read_barcodes(folder / "Barcodes.dat"),
           read_landmarks(folder / "Landmark_Groundtruth.dat")};
 }

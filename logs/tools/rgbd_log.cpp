@@ -42,7 +42,7 @@ void RgbdLog::write_frame(const ImportedFrame& frame, const std::filesystem::pat
   message.utime = frame.utime;
   message.seq = frame.seq;
   message.device_time_us = frame.device_time_us;
-  message.depth_registered = 1;
+  message.depth_registered = frame.depth_registered ? 1 : 0;
   encoder_.encode_depth(frame.depth, kinect_frame_t::DEPTH_PDZ16, message);
   set_color(frame.color, message);
   encode_depth_camera(frame.camera, message);

@@ -10,13 +10,14 @@
 
 namespace roomwise {
 
-/// One instant of a recorded depth camera, as import finds it: depth registered to colour, one
-/// pinhole camera for both.
+/// One instant of a recorded depth camera, as import finds it: one pinhole camera for depth and
+/// colour.
 struct ImportedFrame {
   std::int64_t utime = 0;
   std::int64_t seq = 0;
   std::int64_t device_time_us = 0;
   DepthImage depth;
+  bool depth_registered = false;  ///< depth pixels lie on the colour image's pixels
   JpegImage color;
   PinholeCamera camera;
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();

@@ -15,7 +15,7 @@ bool is_finite(const PolarObservation& polar) {
          polar.covariance.allFinite();
 }
 
-bool is_covariance(const Eigen::Matrix2d& covariance) {
+bool is_sighting_covariance(const Eigen::Matrix2d& covariance) {
   const double range = covariance(0, 0);
   const double bearing = covariance(1, 1);
   return range > 0.0 && bearing > 0.0 && range <= kRangeVarianceMax_m2 &&
@@ -30,7 +30,7 @@ Verdict check(const Sighting& sighting) {
   if (!is_finite(polar)) return Verdict::kNotFinite;
   if (!(polar.range_m > 0.0) || polar.range_m > kRangeMax_m) return Verdict::kRangeInvalid;
   if (std::abs(polar.bearing_rad) > kBearingMax_rad) return Verdict::kBearingInvalid;
-  if (!is_covariance(polar.covariance)) return Verdict::kCovarianceInvalid;
+  if (!is_sighting_covariance(polar.covariance)) return Verdict::kCovarianceInvalid;
   if (sighting.moving) return Verdict::kMoving;
   return Verdict::kMatched;
 }

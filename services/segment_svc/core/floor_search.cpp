@@ -7,7 +7,7 @@
 namespace roomwise::segment {
 namespace {
 
-constexpr double kBin_m = 0.02;
+constexpr double kHeightBin_m = 0.02;
 constexpr int kBandBins = 3;                                      // a plane's band: 6 cm each side
 constexpr int kAboveBins = 6;                                     // above the band: 12 cm
 constexpr int kApartBins = 5;                                     // between planes: 10 cm
@@ -38,15 +38,16 @@ const std::vector<FloorPlane>& FloorSearch::search(const std::vector<FloorPoint>
 
 void FloorSearch::try_tilt(const std::vector<FloorPoint>& points, const Eigen::Vector3d& normal) {
   below_.fill(0);
-  const Eigen::Vector3f per_bin = (normal / -kBin_m).cast<float>();
+  const Eigen::Vector3f per_bin = (normal / -kHeightBin_m).cast<float>();
   for (std::size_t i = 0; i < points.size(); i += kThinning) {
     const auto bin = static_cast<int>(std::min(per_bin.dot(points[i].p_camera_m), kBins - 1.0F));
     if (bin >= 0) ++below_[static_cast<std::size_t>(bin)];
   }
   for (std::size_t i = 1; i < below_.size(); ++i) below_[i] += below_[i - 1];
 
-  const int lowest = static_cast<int>(limits_.camera_height_max_m / kBin_m);
-  for (int bin = static_cast<int>(limits_.camera_height_min_m / kBin_m); bin <= lowest; ++bin) {
+  const int lowest = static_cast<int>(limits_.camera_height_max_m / kHeightBin_m);
+  for (int bin = static_cast<int>(limits_.camera_height_min_m / kHeightBin_m); bin <= lowest;
+       ++bin) {
     const int on = up_to(bin + kBandBins) - up_to(bin - kBandBins - 1);
     const int above = up_to(bin - kBandBins - 1) - up_to(bin - kBandBins - kAboveBins - 1);
     const int beneath = below_.back() - up_to(bin + kBandBins + 2);
@@ -74,7 +75,7 @@ void FloorSearch::collect(std::size_t point_count) {
       if (votes(near) > votes(best)) best = near;
     }
     found_.push_back({.normal = best_of_height_[static_cast<std::size_t>(best)].normal,
-                      .height_m = (best + 0.5) * kBin_m});
+                      .height_m = (best + 0.5) * kHeightBin_m});
     bin = best - kApartBins + 1;
   }
 }
