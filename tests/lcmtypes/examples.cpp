@@ -105,7 +105,7 @@ create_state_t example() {
           .overcurrent_right_wheel = 1,
           .overcurrent_main_brush = 0,
           .overcurrent_side_brush = 1,
-          .overcurrent_vacuum = 0,
+          .overcurrent_driver_1 = 0,
           .dirt = 27,
           .buttons = 28,
           .infrared_omni = 29,
