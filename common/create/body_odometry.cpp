@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kMetre_mm = 1000.0;
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr Duration kLongestGap = std::chrono::seconds(5);
-constexpr double kSpeedMax_mps = 0.75;
-constexpr double kTurnRateMax_radps = 6.0;
-constexpr double kTimeSlack_s = 0.3;        // readings that waited for a busy host come in bunches
+constexpr Duration kLongestUnread = std::chrono::seconds(5);
+constexpr double kBodySpeedMax_mps = 0.75;
+constexpr double kBodyTurnRateMax_radps = 6.0;
+constexpr double kBunchingSlack_s = 0.3;    // readings that waited for a busy host come in bunches
 constexpr double kUnreadTrust_ratio = 0.3;  // sigma of motion expected but not read
 
 double square(double value) { return value * value; }
@@ -72,11 +72,11 @@ OdometryVerdict BodyOdometry::update(Time time, int distance_mm, int angle_deg) 
 OdometryVerdict BodyOdometry::judge(Time time, int distance_mm, int angle_deg) const {
   if (!has_reading_) return OdometryVerdict::kFirst;
   const Duration interval = time - step_.time;
-  if (interval <= -kLongestGap || interval > kLongestGap) return OdometryVerdict::kGap;
+  if (interval <= -kLongestUnread || interval > kLongestUnread) return OdometryVerdict::kGap;
   if (interval <= Duration(0)) return OdometryVerdict::kOutOfOrder;
-  const double time_s = seconds(interval) + kTimeSlack_s;
-  const bool is_jump = std::abs(distance_mm) > kSpeedMax_mps * time_s * kMetre_mm ||
-                       std::abs(angle_deg) > kTurnRateMax_radps * time_s / kDegree_rad;
+  const double time_s = seconds(interval) + kBunchingSlack_s;
+  const bool is_jump = std::abs(distance_mm) > kBodySpeedMax_mps * time_s * kMetre_mm ||
+                       std::abs(angle_deg) > kBodyTurnRateMax_radps * time_s / kDegree_rad;
   return is_jump ? OdometryVerdict::kJump : OdometryVerdict::kStep;
 }
 

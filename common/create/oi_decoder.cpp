@@ -46,16 +46,26 @@ void OiDecoder::push(std::span<const std::uint8_t> bytes,
                      const std::function<void(const StreamFrame&)>& on_frame) {
   for (const std::uint8_t byte : bytes) {
     candidate_.push_back(byte);
-    while (!could_be_frame()) shed_byte();
+    if (!fits(candidate_.size() - 1)) shed_to_next_start();
     if (candidate_.size() == shape_.size()) judge_frame(on_frame);
   }
 }
 
+bool OiDecoder::fits(std::size_t place) const {
+  return shape_[place] == kAny || shape_[place] == candidate_[place];
+}
+
 bool OiDecoder::could_be_frame() const {
   for (std::size_t i = 0; i < candidate_.size(); ++i) {
-    if (shape_[i] != kAny && shape_[i] != candidate_[i]) return false;
+    if (!fits(i)) return false;
   }
   return true;
+}
+
+void OiDecoder::shed_to_next_start() {
+  do {
+    shed_byte();
+  } while (!could_be_frame());
 }
 
 void OiDecoder::shed_byte() {
@@ -75,8 +85,7 @@ void OiDecoder::judge_frame(const std::function<void(const StreamFrame&)>& on_fr
   if (wants_header ? with_header : without_header) return emit(on_frame);
   ++counts_.checksum_failures;
   note_checksum(wants_header ? without_header : with_header);
-  shed_byte();
-  while (!could_be_frame()) shed_byte();
+  shed_to_next_start();
 }
 
 void OiDecoder::note_checksum(bool passes_other) {

@@ -58,8 +58,10 @@ class OiDecoder {
   const BootTextReader& boot_text() const { return boot_text_; }
 
  private:
+  bool fits(std::size_t place) const;
   bool could_be_frame() const;
   void shed_byte();
+  void shed_to_next_start();
   void judge_frame(const std::function<void(const StreamFrame&)>& on_frame);
   void note_checksum(bool passes_other);
   void emit(const std::function<void(const StreamFrame&)>& on_frame);

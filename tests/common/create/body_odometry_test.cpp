@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Time kStart = time_from_utime(1'700'000'000'000'000);
+constexpr Time kBegin = time_from_utime(1'700'000'000'000'000);
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// A robot that says whole units as `rounding` says, and a driver that asks it every 150 ms.
@@ -23,7 +23,7 @@ double turned_deg(const Spin& spin, double expected_ratio) {
   const WheelGeometry geometry{.wheel_base_m = 0.258};
   BodyOdometry odometry(geometry, spin.rounding);
   const Duration period = milliseconds(150);
-  Time time = kStart;
+  Time time = kBegin;
   EXPECT_EQ(odometry.update(time, 0, 0), OdometryVerdict::kFirst);
   const double wheel_mps =
       0.5 * geometry.wheel_base_m * spin.rate_degps * kDegree_rad * expected_ratio;
@@ -58,7 +58,7 @@ TEST(BodyOdometry, AWrongExpectationIsBoundedByTheReadings) {
 
 TEST(BodyOdometry, AStalledRobotStaysWithinItsReading) {
   BodyOdometry odometry(WheelGeometry{}, Rounding::kCarry);
-  Time time = kStart;
+  Time time = kBegin;
   ASSERT_EQ(odometry.update(time, 0, 0), OdometryVerdict::kFirst);
   for (int i = 0; i < 100; ++i) {
     time += milliseconds(150);
@@ -70,20 +70,20 @@ TEST(BodyOdometry, AStalledRobotStaysWithinItsReading) {
 
 TEST(BodyOdometry, ALostReadingIsBridgedWithLittleTrust) {
   BodyOdometry odometry(WheelGeometry{}, Rounding::kTruncate);
-  ASSERT_EQ(odometry.update(kStart, 0, 0), OdometryVerdict::kFirst);
+  ASSERT_EQ(odometry.update(kBegin, 0, 0), OdometryVerdict::kFirst);
   odometry.expect(milliseconds(150), 0.2, 0.2);
   odometry.reading_lost();
   odometry.expect(milliseconds(150), 0.2, 0.2);
-  ASSERT_EQ(odometry.update(kStart + milliseconds(300), 30, 0), OdometryVerdict::kStep);
+  ASSERT_EQ(odometry.update(kBegin + milliseconds(300), 30, 0), OdometryVerdict::kStep);
   EXPECT_NEAR(odometry.step().distance_m, 0.06, 1e-9);
   EXPECT_GT(std::sqrt(odometry.step().covariance(0, 0)), 0.3 * 0.03);
 }
 
 TEST(BodyOdometry, UncertaintyOfTheTurnGrowsWithItsRateAndIsNoneAtRest) {
   BodyOdometry odometry(WheelGeometry{}, Rounding::kTruncate);
-  ASSERT_EQ(odometry.update(kStart, 0, 0), OdometryVerdict::kFirst);
+  ASSERT_EQ(odometry.update(kBegin, 0, 0), OdometryVerdict::kFirst);
   double last = -1.0;
-  Time time = kStart;
+  Time time = kBegin;
   for (const int angle_deg : {0, 1, 5, 20}) {
     time += milliseconds(150);
     odometry.expect(milliseconds(150), 0.0, 0.0);
@@ -97,10 +97,10 @@ TEST(BodyOdometry, UncertaintyOfTheTurnGrowsWithItsRateAndIsNoneAtRest) {
 
 TEST(BodyOdometry, AbsurdReadingsStartAnew) {
   BodyOdometry odometry(WheelGeometry{}, Rounding::kTruncate);
-  ASSERT_EQ(odometry.update(kStart, 0, 0), OdometryVerdict::kFirst);
-  EXPECT_EQ(odometry.update(kStart + milliseconds(150), 32767, 0), OdometryVerdict::kJump);
-  EXPECT_EQ(odometry.update(kStart + milliseconds(300), 0, -32768), OdometryVerdict::kJump);
-  EXPECT_EQ(odometry.update(kStart + milliseconds(300), 0, 0), OdometryVerdict::kOutOfOrder);
+  ASSERT_EQ(odometry.update(kBegin, 0, 0), OdometryVerdict::kFirst);
+  EXPECT_EQ(odometry.update(kBegin + milliseconds(150), 32767, 0), OdometryVerdict::kJump);
+  EXPECT_EQ(odometry.update(kBegin + milliseconds(300), 0, -32768), OdometryVerdict::kJump);
+  EXPECT_EQ(odometry.update(kBegin + milliseconds(300), 0, 0), OdometryVerdict::kOutOfOrder);
 }
 
 }  // namespace

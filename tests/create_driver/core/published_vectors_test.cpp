@@ -20,14 +20,15 @@ Bytes bytes_in(const std::string& text) {
   return bytes;
 }
 
-/// The lines `left : right` of the file, by the first word of the left.
-std::map<std::string, std::pair<std::string, std::string>> lines_by_first_word() {
+/// The lines `left : right` of the file, by the first two words of the left.
+std::map<std::string, std::pair<std::string, std::string>> lines_by_first_words() {
   std::ifstream file(shared_data() / "create_oi_vectors" / "vectors.txt");
   std::map<std::string, std::pair<std::string, std::string>> lines;
   for (std::string line; std::getline(file, line);) {
     const std::size_t colon = line.find(" : ");
     if (line.starts_with('#') || colon == std::string::npos) continue;
-    lines[line.substr(0, line.find(' '))] = {line.substr(0, colon), line.substr(colon + 3)};
+    lines[line.substr(0, line.find(' ', line.find(' ') + 1))] = {line.substr(0, colon),
+                                                                 line.substr(colon + 3)};
   }
   return lines;
 }
@@ -36,7 +37,7 @@ class PublishedVectors : public ::testing::Test {
  protected:
   void SetUp() override {
     ROOMWISE_NEED_DATA("create_oi_vectors/vectors.txt");
-    lines_ = lines_by_first_word();
+    lines_ = lines_by_first_words();
   }
   std::map<std::string, std::pair<std::string, std::string>> lines_;
 };
@@ -44,11 +45,11 @@ class PublishedVectors : public ::testing::Test {
 TEST_F(PublishedVectors, TheStreamRequestIsOurs) {
   Bytes ours;
   append_stream_request(Bytes{29, 13}, ours);
-  EXPECT_EQ(ours, bytes_in(lines_["stream"].second));
+  EXPECT_EQ(ours, bytes_in(lines_["stream cliff-left-signal"].second));
 }
 
 TEST_F(PublishedVectors, TheFrameDecodes) {
-  const Bytes frame = bytes_in(lines_["19"].first);
+  const Bytes frame = bytes_in(lines_["19 5"].first);
   ASSERT_EQ(frame.size(), 8U);
   OiDecoder decoder(Bytes{29, 13});
   int frames = 0;
@@ -61,7 +62,7 @@ TEST_F(PublishedVectors, TheFrameDecodes) {
 }
 
 TEST_F(PublishedVectors, MinusTwoHundredMillimetresAreTheSameTwoBytes) {
-  const Bytes drive = bytes_in(lines_["drive"].second);  // 137, then velocity and radius
+  const Bytes drive = bytes_in(lines_["drive v=-200"].second);  // 137, then velocity and radius
   ASSERT_EQ(drive.size(), 5U);
   Bytes ours;
   append_drive({0.5, -0.2}, ours);
@@ -69,7 +70,7 @@ TEST_F(PublishedVectors, MinusTwoHundredMillimetresAreTheSameTwoBytes) {
 }
 
 TEST_F(PublishedVectors, TheRightWheelComesFirst) {
-  EXPECT_NE(lines_["drive_direct"].second.find("145 RIGHT_hi RIGHT_lo LEFT_hi LEFT_lo"),
+  EXPECT_NE(lines_["drive_direct order"].second.find("145 RIGHT_hi RIGHT_lo LEFT_hi LEFT_lo"),
             std::string::npos);
   Bytes ours;
   append_drive({0.001, 0.258}, ours);
