@@ -5,7 +5,7 @@ target_compile_options(roomwise_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns wrongly about "text" + std::string (PR 105651)
   # Several sources compiled as one look like headers to g++, which then minds their private structs.
-  $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>
+  $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
   -ffp-contract=off)  # no fused multiply-add: the same log gives the same bytes on every machine
 target_include_directories(roomwise_flags INTERFACE ${CMAKE_SOURCE_DIR})
 

@@ -23,7 +23,9 @@ inline constexpr Channel<kinect_frame_t> kKinectFrame{"KINECT_FRAME", "30", "kin
 inline constexpr Channel<landmark_list_t> kLandmarks{"LANDMARKS", "<= 30", "landmark_svc", "ekf_svc, viewer"};
 inline constexpr Channel<segmentation_t> kSegments{"SEGMENTS", "<= 30", "segment_svc", "safety_svc, pilot_svc, viewer"};
 inline constexpr Channel<segment_training_t> kSegmentTrain{"SEGMENT_TRAIN", "on event", "viewer, rwlog", "segment_svc"};
+inline constexpr Channel<create_state_t> kCreateState{"CREATE_STATE", "66", "create_driver", "safety_svc, viewer"};
 inline constexpr Channel<odometry_t> kOdometry{"ODOMETRY", "66", "create_driver", "ekf_svc, safety_svc, pilot_svc, viewer"};
+inline constexpr Channel<velocity_command_t> kVelCmd{"VEL_CMD", "50", "safety_svc", "create_driver"};
 inline constexpr Channel<pose_t> kPose{"POSE", ">= 30", "ekf_svc", "all"};
 inline constexpr Channel<landmark_map_t> kLandmarkMap{"LANDMARK_MAP", "1 + on change", "ekf_svc", "pilot_svc, viewer, rwlog"};
 inline constexpr Channel<truth_t> kTruth{"TRUTH", "60", "simulator", "viewer, rwlog"};
@@ -33,9 +35,9 @@ inline constexpr Channel<params_t> kParams{"PARAMS", "1", "every process", "view
 }  // namespace channels
 
 /// Every channel, for tools that must treat them all.
-inline constexpr auto kAllChannels =
-    std::make_tuple(channels::kKinectFrame, channels::kLandmarks, channels::kSegments,
-                    channels::kSegmentTrain, channels::kOdometry, channels::kPose,
-                    channels::kLandmarkMap, channels::kTruth, channels::kHealth, channels::kParams);
+inline constexpr auto kAllChannels = std::make_tuple(
+    channels::kKinectFrame, channels::kLandmarks, channels::kSegments, channels::kSegmentTrain,
+    channels::kCreateState, channels::kOdometry, channels::kVelCmd, channels::kPose,
+    channels::kLandmarkMap, channels::kTruth, channels::kHealth, channels::kParams);
 
 }  // namespace roomwise

@@ -14,7 +14,7 @@ FORBIDDEN_INCLUDES = re.compile(
     r"|ctime|time\.h|unistd\.h|sys/.*|fcntl\.h|csignal|signal\.h"
     r"|spdlog/.*|toml\+\+/.*|CLI/.*|zstd\.h"
     r"|opencv2/(?!core|imgproc).*|services/[^/]+/(?!core/).*"
-    r"|common/(?!geometry/|image/|time\.h$|multiversion\.h$).*")
+    r"|common/(?!geometry/|image/|create/(?!create_messages)|time\.h$|multiversion\.h$).*")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"\n]+)[>"]', flags=re.M)
 FORBIDDEN_CALLS = {
     "reads a clock": re.compile(
@@ -26,14 +26,14 @@ FORBIDDEN_CALLS = {
     "leaves the program": re.compile(r"(?<![\w.>])(?:system|abort|exit|_exit)\s*\("),
 }
 ALLOWED_LINKS = {"Eigen3::Eigen", "opencv_core", "opencv_imgproc", "common_geometry",
-                 "common_image"}
+                 "common_image", "common_create"}
 COMMAND = re.compile(r"\b(roomwise_library|add_library|target_link_libraries)\s*\(([^()]*)\)")
 KEYWORDS = {"SOURCES", "LINKS", "PUBLIC", "PRIVATE", "INTERFACE", "STATIC", "OBJECT", "SHARED"}
 
 
 def check(tree):
     found = []
-    for path in tree.match(r"services/[^/]+/core/.*\.(h|cpp)"):
+    for path in tree.match(r"(services/[^/]+/core|common/create)/(?!create_messages).*\.(h|cpp)"):
         found += check_source(path, tree.text(path), tree.code(path))
     for path in tree.match(r"services/[^/]+/(core/)?CMakeLists\.txt"):
         found += check_links(path, re.sub(r"#[^\n]*", "", tree.text(path)))

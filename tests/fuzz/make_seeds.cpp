@@ -13,6 +13,7 @@
 
 #include "common/bus/log_file.h"
 #include "common/bus/wire.h"
+#include "common/create/sensor_packets.h"
 #include "common/frames/frame_encoder.h"
 #include "roomwise/all_messages.hpp"
 
@@ -124,11 +125,30 @@ void log_seeds(Corpus corpus, const std::filesystem::path& scratch) {
   corpus.add("torn" + whole);
 }
 
+/// Model, then frames of it, each after a byte that says how long it is.
+void serial_seeds(Corpus corpus) {
+  for (const Bytes& ids : {Bytes{100}, Bytes{1, 3, 4, 5}}) {
+    Bytes stream{static_cast<std::uint8_t>(ids.size() > 1 ? 1 : 0)};
+    for (int i = 0; i < 40; ++i) {
+      create::SensorPackets packets;
+      packets.set(create::Packet::kEncoderLeft, 65500 + 7 * i);
+      packets.set(create::Packet::kOiMode, i < 20 ? 1 : 2);
+      Bytes frame;
+      create::append_stream_frame(ids, packets, frame);
+      stream.push_back(static_cast<std::uint8_t>(frame.size()));
+      stream.insert(stream.end(), frame.begin(), frame.end());
+    }
+    corpus.add(stream);
+  }
+  corpus.add("\x02\x14Roomba by iRobot!\r\n\x1c.release-stm32-3.7.7:6913\r\n");
+}
+
 void make_seeds(const std::filesystem::path& folder) {
   depth_codec_seeds(Corpus(folder / "fuzz_depth_codec"));
   frame_seeds(Corpus(folder / "fuzz_frame_decoder"));
   wire_seeds(Corpus(folder / "fuzz_wire"), AllMessages{});
   params_seeds(Corpus(folder / "fuzz_params"));
+  serial_seeds(Corpus(folder / "fuzz_oi_decoder"));
   log_seeds(Corpus(folder / "fuzz_log_reader"), folder / "seed.lcmlog");
 }
 

@@ -20,6 +20,14 @@ class CorePurity(RuleCase):
 inline double mean(const X& x) { return x.time() + x.time(0) + brand(1) + log("::now()"); }
 """})
 
+    def test_what_cores_share_of_the_create_is_held_to_the_same(self):
+        source = "#include <thread>\n"
+        self.assert_refused({"common/create/oi_decoder.h": source},
+                            "common/create/oi_decoder.h:1: core must not include thread")
+        self.assert_clean({"services/x_svc/core/x.h": '#include "common/create/oi_decoder.h"\n'})
+        self.assert_refused({"services/x_svc/core/x.h": '#include "common/create/create_messages.h"\n'},
+                            "services/x_svc/core/x.h:1: core must not include")
+
     def test_the_world_outside_core_is_allowed(self):
         self.assert_clean({"services/x_svc/x_service.cpp": "#include <mutex>\n#include <iostream>\n"})
 
