@@ -1,0 +1,34 @@
+#pragma once
+
+namespace roomwise::simulator {
+
+/// The simulated Create's body, and how its wheels differ from what their encoders say. What the
+/// robot's own firmware believes is nominal: a 235 mm base (Create 1: 258 mm) and 72 mm wheels.
+struct RobotParams {
+  double radius_m = 0.17;
+  double top_speed_mps = 0.5;      ///< users of the Create 2 have measured 0.33 to 0.5
+  double acceleration_mps2 = 2.0;  ///< of a wheel, away from standing still
+  double braking_mps2 = 5.0;       ///< of a wheel, towards standing still
+  double left_wheel_ratio = 1.0;   ///< true wheel diameter over the nominal one
+  double right_wheel_ratio = 1.0;
+  double wheel_base_ratio = 1.0;  ///< effective base over the nominal one: tyres are wide and scrub
+  double slip_ratio = 0.005;      ///< travel short of what the wheels turned
+  double slip_m2_per_m = 4e-7;    ///< variance of that, a wheel and metre
+  double stall_after_s = 0.3;     ///< overcurrent is reported this long after a wheel is held
+
+  template <class Field>
+  void visit_fields(Field&& field) {
+    field("radius_m", radius_m, 0.05, 0.5);
+    field("top_speed_mps", top_speed_mps, 0.05, 1.0);
+    field("acceleration_mps2", acceleration_mps2, 0.1, 100.0);
+    field("braking_mps2", braking_mps2, 0.1, 100.0);
+    field("left_wheel_ratio", left_wheel_ratio, 0.5, 2.0);
+    field("right_wheel_ratio", right_wheel_ratio, 0.5, 2.0);
+    field("wheel_base_ratio", wheel_base_ratio, 0.5, 2.0);
+    field("slip_ratio", slip_ratio, 0.0, 0.5);
+    field("slip_m2_per_m", slip_m2_per_m, 0.0, 1e-3);
+    field("stall_after_s", stall_after_s, 0.0, 10.0);
+  }
+};
+
+}  // namespace roomwise::simulator
