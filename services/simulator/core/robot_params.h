@@ -17,20 +17,6 @@ struct RobotParams {
   double slip_ratio = 0.005;    ///< travel short of what the wheels turned
   double slip_m2_per_m = 1e-7;  ///< variance of that, a wheel and metre
   double stall_after_s = 0.3;   ///< overcurrent is reported this long after a wheel is held
-
-  template <class Field>
-  void visit_fields(Field&& field) {
-    field("radius_m", radius_m, 0.05, 0.5);
-    field("top_speed_mps", top_speed_mps, 0.05, 1.0);
-    field("acceleration_mps2", acceleration_mps2, 0.1, 100.0);
-    field("braking_mps2", braking_mps2, 0.1, 100.0);
-    field("left_wheel_ratio", left_wheel_ratio, 0.5, 2.0);
-    field("right_wheel_ratio", right_wheel_ratio, 0.5, 2.0);
-    field("wheel_base_ratio", wheel_base_ratio, 0.5, 2.0);
-    field("slip_ratio", slip_ratio, 0.0, 0.5);
-    field("slip_m2_per_m", slip_m2_per_m, 0.0, 1e-3);
-    field("stall_after_s", stall_after_s, 0.0, 10.0);
-  }
 };
 
 }  // namespace roomwise::simulator

@@ -19,19 +19,6 @@ struct OpenInterfaceParams {
   double mode_settle_s = 0.0;     ///< bytes within this time of a mode command are lost
   double boot_s = 1.5;            ///< deaf after a reset
   double sleep_after_s = 300.0;   ///< in Passive without a mode command
-
-  template <class Field>
-  void visit_fields(Field&& field) {
-    field("model", model, {"create1", "create2"});
-    field("odometry_rounding", odometry_rounding, {"truncate", "carry"});
-    field("firmware", firmware, {"3.7.7", "3.4.0", "3.2.6"});
-    field("mode_byte", mode_byte, {"standard", "plus_one"});
-    field("checksum", checksum, {"with_header", "without_header"});
-    field("locks_after_trip", locks_after_trip);
-    field("mode_settle_s", mode_settle_s, 0.0, 1.0);
-    field("boot_s", boot_s, 0.2, 60.0);
-    field("sleep_after_s", sleep_after_s, 1.0, 86400.0);
-  }
 };
 
 }  // namespace roomwise::simulator
