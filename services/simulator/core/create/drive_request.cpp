@@ -30,7 +30,9 @@ void DriveRequest::set_arc(std::int16_t velocity_mmps, std::int16_t radius_mm,
     wheels_mps_ = {-radius_mm_ * v_mps, radius_mm_ * v_mps};
   } else {
     const double aside = wheel_base_m / 2.0 / (radius_mm_ * 1e-3);
-    wheels_mps_ = {v_mps * (1.0 - aside), v_mps * (1.0 + aside)};
+    const double fastest_mps = std::abs(v_mps) * (1.0 + std::abs(aside));
+    const double ratio = std::min(1.0, kLargest_mmps * 1e-3 / std::max(fastest_mps, 1e-9));
+    wheels_mps_ = {ratio * v_mps * (1.0 - aside), ratio * v_mps * (1.0 + aside)};
   }
 }
 

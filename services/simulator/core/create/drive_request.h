@@ -9,7 +9,8 @@ namespace roomwise::simulator {
 class DriveRequest {
  public:
   /// Opcode 137: mm/s and mm; radius 32767 or -32768 straight, -1 clockwise and 1 counter-clockwise
-  /// in place. Clamped to 500 mm/s and 2000 mm.
+  /// in place. Clamped to 500 mm/s and 2000 mm; an arc too tight for its speed is driven slower, so
+  /// that neither wheel exceeds 500 mm/s.
   void set_arc(std::int16_t velocity_mmps, std::int16_t radius_mm, double wheel_base_m);
 
   /// Opcode 145: clamped to 500 mm/s.

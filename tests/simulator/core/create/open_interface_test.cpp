@@ -84,6 +84,14 @@ TEST_F(OpenInterfaceTest, DriveKnowsItsSpecialRadii) {
   EXPECT_EQ(drive(0x00, 0x01), (Wheels{-0.1, 0.1})) << "counter-clockwise";
 }
 
+TEST_F(OpenInterfaceTest, ATightArcIsDrivenSlowerAndKeepsItsRadius) {
+  go(OiMode::kSafe);
+  host.send({137, 1, 244, 0, 100});  // 500 mm/s, radius 100 mm
+  EXPECT_NEAR(wheels().right, 0.5, 1e-12);
+  EXPECT_NEAR((wheels().right + wheels().left) / (wheels().right - wheels().left) * 0.235 / 2.0,
+              0.1, 1e-12);
+}
+
 TEST_F(OpenInterfaceTest, SpeedsAreClamped) {
   go(OiMode::kSafe);
   host.send({145, 0x7F, 0xFF, 0x80, 0x00});
