@@ -14,4 +14,10 @@ constexpr double seconds(Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
+/// The first multiple of `period` after `time`, counted from the epoch; `time` may lie before it.
+constexpr Time next_multiple(Time time, Duration period) {
+  const Duration rest = (time.time_since_epoch() % period + period) % period;
+  return time + (period - rest);
+}
+
 }  // namespace roomwise

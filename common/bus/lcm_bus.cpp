@@ -19,10 +19,6 @@ constexpr int kMostPerRound = 2000;
 /// How soon stop() is seen when nothing arrives.
 constexpr Duration kLongestWait{50'000};
 
-Time next_multiple(Time time, Duration period) {
-  return time + (period - time.time_since_epoch() % period);
-}
-
 }  // namespace
 
 LcmBus::LcmBus(const std::string& url) : url_(url), lcm_(url) {

@@ -6,14 +6,6 @@
 namespace roomwise {
 namespace {
 
-/// The first multiple of `period` after `time`.
-Time next_multiple(Time time, Duration period) {
-  const std::int64_t step = period.count();
-  const std::int64_t utime = utime_of(time);
-  const std::int64_t rest = ((utime % step) + step) % step;
-  return time + Duration{step - rest};
-}
-
 /// Whether `time` is so far that stepping there tick by tick would never end: a hole in the log, or
 /// a damaged time stamp.
 bool is_far(Time from, Time time) {

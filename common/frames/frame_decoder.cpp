@@ -13,7 +13,6 @@ static_assert(std::endian::native == std::endian::little, "DEPTH_RAW16 is copied
 
 constexpr int kDepthSideMin_px = 16;
 constexpr int kColorSideMin_px = 1;
-constexpr int kSideMax_px = 4096;
 constexpr double kDepthUnitMax_m = 0.1;
 constexpr double kFocalMax_px = 1e5;
 constexpr double kTranslationMax_m = 100.0;
@@ -21,7 +20,7 @@ constexpr double kQuaternionLengthTolerance = 1e-3;
 
 bool sides_in_range(int width_px, int height_px, int smallest_px) {
   return std::min(width_px, height_px) >= smallest_px &&
-         std::max(width_px, height_px) <= kSideMax_px;
+         std::max(width_px, height_px) <= kImageSideMax_px;
 }
 
 std::size_t pixels(int width_px, int height_px) {

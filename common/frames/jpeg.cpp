@@ -4,10 +4,10 @@
 
 #include <stdexcept>
 
+#include "common/image/rgbd_frame.h"
+
 namespace roomwise {
 namespace {
-
-constexpr int kSideMax_px = 4096;
 
 struct CloseHandle {
   void operator()(void* handle) const { tjDestroy(handle); }
@@ -18,7 +18,7 @@ std::size_t rgb_bytes(int width_px, int height_px) {
   return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 3;
 }
 
-bool is_side(int px) { return px >= 1 && px <= kSideMax_px; }
+bool is_side(int px) { return px >= 1 && px <= kImageSideMax_px; }
 
 Handle checked(tjhandle handle) {
   if (handle == nullptr) throw std::runtime_error("cannot start libturbojpeg");

@@ -232,7 +232,7 @@ bool DepthDecoder::decode(Bytes bytes, int width_px, int height_px,
                           std::span<std::uint16_t> values) {
   const auto width = static_cast<std::size_t>(width_px);
   const auto height = static_cast<std::size_t>(height_px);
-  if (std::min(width_px, height_px) < 1 || std::max(width_px, height_px) > kSideMax_px ||
+  if (std::min(width_px, height_px) < 1 || std::max(width_px, height_px) > kImageSideMax_px ||
       values.size() != width * height || bytes.size() < kHeaderBytes ||
       !std::equal(std::begin(kMagic), std::end(kMagic), bytes.begin()) ||
       u16_at(bytes, 4) != width || u16_at(bytes, 6) != height) {

@@ -246,7 +246,7 @@ void DepthEncoder::encode(std::span<const std::uint16_t> values, int width_px, i
                           std::vector<std::uint8_t>& out) {
   const auto width = static_cast<std::size_t>(width_px);
   const auto height = static_cast<std::size_t>(height_px);
-  if (std::min(width_px, height_px) < 1 || std::max(width_px, height_px) > kSideMax_px ||
+  if (std::min(width_px, height_px) < 1 || std::max(width_px, height_px) > kImageSideMax_px ||
       values.size() != width * height) {
     throw std::invalid_argument("depth image: size does not match its values");
   }

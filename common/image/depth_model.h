@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/image/rgbd_frame.h"
+
 /// What PDZ16's encoder and decoder must agree on to the bit.
 ///
 /// Bytes: magic and version, layout, u16 width, u16 height (little-endian throughout); then,
@@ -27,7 +29,6 @@ namespace roomwise::pdz16 {
 
 constexpr std::uint8_t kMagic[3] = {'P', 'Z', 1};  ///< the last is the version
 constexpr std::size_t kHeaderBytes = 8;
-constexpr int kSideMax_px = 4096;
 
 enum Layout : std::uint8_t { kStored = 0, kValues = 1, kPalette = 2 };
 

@@ -6,6 +6,9 @@
 
 namespace roomwise {
 
+/// No image is wider or higher; what says so is refused.
+inline constexpr int kImageSideMax_px = 4096;
+
 /// Pinhole camera without distortion; pixel centres lie at whole numbers.
 struct PinholeCamera {
   double fx_px = 0.0;

@@ -13,6 +13,9 @@ struct Color {
   std::uint8_t blue = 0;
 };
 
+inline constexpr Color kPaper{255, 255, 255};
+inline constexpr Color kInk{32, 36, 40};
+
 /// A picture to draw on with smooth edges: it is kept twice as large and made smaller at the end.
 /// All places and sizes are in pixels of the finished picture; what lies outside is cut off.
 class Canvas {

@@ -7,8 +7,6 @@
 namespace roomwise {
 namespace {
 
-constexpr Color kPaper{255, 255, 255};
-constexpr Color kInk{32, 36, 40};
 constexpr int kWanted_px = 1280;  // width of the image in the picture
 constexpr int kTop_px = 64;
 constexpr int kMargin_px = 20;

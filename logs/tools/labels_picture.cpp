@@ -15,8 +15,7 @@
 namespace roomwise {
 namespace {
 
-constexpr Color kInk{32, 36, 40};
-constexpr Color kFaintInk{150, 154, 158};
+constexpr Color kNoteInk{150, 154, 158};
 constexpr Color kFree{40, 180, 70};
 
 struct Label {
@@ -110,7 +109,7 @@ class Fan {
     for (int i = 0; i <= kSteps; ++i) {
       arc.push_back(place(ring_m, std::numbers::pi * (double(i) / kSteps - 0.5)));
     }
-    canvas.polyline(arc, kFaintInk, 1.0);
+    canvas.polyline(arc, kNoteInk, 1.0);
     canvas.text(place(ring_m, 0.0) + cv::Point2d(4, -4), fmt::format("{} m", ring_m), 9, kInk);
   }
 

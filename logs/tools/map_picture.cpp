@@ -12,8 +12,6 @@
 namespace roomwise {
 namespace {
 
-constexpr Color kPaper{255, 255, 255};
-constexpr Color kInk{32, 36, 40};
 constexpr Color kGrid{232, 234, 236};
 constexpr Color kFaintInk{132, 136, 140};
 constexpr Color kTruth{40, 160, 90};

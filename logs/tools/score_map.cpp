@@ -6,7 +6,7 @@
 namespace roomwise {
 namespace {
 
-constexpr double kFarthest_m = 0.5;
+constexpr double kFarthestPair_m = 0.5;
 
 struct Candidate {
   double distance_m;
@@ -46,7 +46,7 @@ class Matcher {
       const Eigen::Vector2d p_m = transform(T_world_map, map_[i].p_m);
       for (std::size_t k = 0; k < truth_.size(); ++k) {
         const double distance_m = (truth_[k].p_m - p_m).norm();
-        if (distance_m <= kFarthest_m) pairs.push_back({distance_m, i, k});
+        if (distance_m <= kFarthestPair_m) pairs.push_back({distance_m, i, k});
       }
     }
     return pairs;

@@ -1,9 +1,13 @@
 """clang-tidy over our .cpp files but the tests', with the list in .clang-tidy; needs a finished
 release build. Tests are left out for time: gtest's macros cost it minutes.
 
-A file is judged again only if its command, its text, a header it includes or the list changed:
-what was clean is remembered by hash in build/release/tidy.
+The files of a folder that are compiled alike are judged as one: most of the time goes into the
+headers they share. So no two of them may give different things the same private name.
+
+A group is judged again only if a command, a text, a header it includes or the list changed: what
+was clean is remembered by hash in build/release/tidy.
 """
+import collections
 import concurrent.futures
 import functools
 import hashlib
@@ -11,6 +15,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 
 BUILD = pathlib.Path("build", "release")
@@ -29,20 +34,38 @@ def check(tree):
     remembered = build / "tidy"
     remembered.mkdir(exist_ok=True)
 
-    def judge(path):
-        entry = commands.get(str(tree.root / path))
-        if entry is None:
-            return [f"{path}:1: no target compiles this file"]
-        key = remembered / digest(lists, entry, headers.get(object_of(entry), ()))
+    def judge(group):
+        entries = [commands[str(tree.root / path)] for path in group]
+        made_of = {file for entry in entries for file in headers.get(object_of(entry), ())}
+        key = remembered / digest(lists, entries, made_of)
         if key.exists():
             return []
-        found = complaints(tree.root, path)
+        found = complaints(tree.root, group, entries[0])
         if not found:
             key.touch()
         return found
 
+    sources = tree.match(SOURCES)
+    stray = [path for path in sources if str(tree.root / path) not in commands]
+    groups = alike([path for path in sources if path not in stray], tree.root, commands)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        return sorted({line for lines in pool.map(judge, tree.match(SOURCES)) for line in lines})
+        found = {line for lines in pool.map(judge, groups) for line in lines}
+    return sorted(found | {f"{path}:1: no target compiles this file" for path in stray})
+
+
+def alike(paths, root, commands):
+    """Groups of files in one folder whose flags are the same, the largest first; each main alone."""
+    groups = collections.defaultdict(list)
+    for path in paths:
+        group = (pathlib.Path(path).parent, flags_of(commands[str(root / path)]))
+        groups[(*group, path if path.endswith("main.cpp") else "")].append(path)
+    return sorted(groups.values(), key=len, reverse=True)
+
+
+def flags_of(entry):
+    """The compiler's arguments but the program (and ccache before it) and the files it names."""
+    arguments = re.sub(r"\s-(c|o|MT|MF)\s+\S+", "", entry["command"])
+    return arguments.split("c++ ", 1)[1].replace(" -MD", "")
 
 
 def object_of(entry):
@@ -65,17 +88,22 @@ def file_hash(path):
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
 
 
-def digest(lists, entry, files):
-    parts = [lists, entry["command"], file_hash(pathlib.Path(entry["file"]))]
-    parts += [file_hash(path) for path in files]
+def digest(lists, entries, files):
+    parts = [lists, *(entry["command"] for entry in entries)]
+    parts += [file_hash(pathlib.Path(entry["file"])) for entry in entries]
+    parts += [file_hash(path) for path in sorted(files)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def complaints(root, path):
-    done = subprocess.run(["clang-tidy", "--quiet", "-p", BUILD, path], cwd=root,
-                          capture_output=True, text=True)
+def complaints(root, group, entry):
+    together = root / BUILD / "tidy" / (re.sub(r"\W", "_", group[0]) + "_and_others.cpp")
+    together.write_text("".join(f'#include "{root / path}"\n' for path in group))
+    done = subprocess.run(["clang-tidy", "--quiet", f"--header-filter=^{re.escape(str(root))}/",
+                           "--checks=-bugprone-suspicious-include", together, "--",
+                           *shlex.split(flags_of(entry))],
+                          cwd=root / BUILD, capture_output=True, text=True)
     found = [f"{pathlib.Path(place).relative_to(root) if place.startswith(str(root)) else place}:"
              f"{line}: {what}" for place, line, what in WARNING.findall(done.stdout)]
     if done.returncode != 0 and not found:
-        return [f"{path}:1: clang-tidy: {(done.stdout + done.stderr).strip()[-500:]}"]
+        return [f"{group[0]}:1: clang-tidy: {(done.stdout + done.stderr).strip()[-500:]}"]
     return found

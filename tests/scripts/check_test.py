@@ -43,18 +43,22 @@ class Command(RuleCase):
 class Tidy(RuleCase):
     rule = tidy
 
-    def project(self, source):
-        """A tree whose release build has compiled a.cpp, which includes a.h."""
-        tree = self.tree({".clang-tidy": (ROOT / ".clang-tidy").read_text(), "a.cpp": source,
+    def project(self, source, **others):
+        """A tree whose release build has compiled a.cpp, which includes a.h, and the other files."""
+        sources = {"a.cpp": source, **{f"{name}.cpp": text for name, text in others.items()}}
+        tree = self.tree({".clang-tidy": (ROOT / ".clang-tidy").read_text(), **sources,
                           "a.h": "#pragma once\ninline int one() { return 1; }\n"})
         build = tree.root / tidy.BUILD
         build.mkdir(parents=True)
-        command = f"c++ -std=c++20 -I{tree.root} -MD -MF a.d -c {tree.root}/a.cpp -o a.o"
+        command = "c++ -std=c++20 -I{0} -MD -MF {1}.d -c {0}/{1} -o {1}.o"
         (build / "build.ninja").write_text(
-            f"rule cc\n  command = {command}\n  depfile = a.d\n  deps = gcc\n"
-            f"build a.o: cc {tree.root}/a.cpp\n")
+            f"rule cc\n  command = {command.format(tree.root, '$name')}\n"
+            "  depfile = $name.d\n  deps = gcc\n"
+            + "".join(f"build {name}.o: cc {tree.root}/{name}\n  name = {name}\n"
+                      for name in sources))
         (build / "compile_commands.json").write_text(json.dumps(
-            [{"directory": str(build), "command": command, "file": f"{tree.root}/a.cpp"}]))
+            [{"directory": str(build), "command": command.format(tree.root, name),
+              "file": f"{tree.root}/{name}"} for name in sources]))
         subprocess.run(["ninja", "-C", build], check=True, capture_output=True)
         return tree
 
@@ -70,14 +74,23 @@ class Tidy(RuleCase):
         tree = self.project('#include "a.h"\nint two() { return one() + 1; }\n')
         self.assertEqual(tidy.check(tree), [])
         memory = tree.root / tidy.BUILD / "tidy"
-        self.assertEqual(len(list(memory.iterdir())), 1)
-        before = [(p.name, p.stat().st_mtime_ns) for p in memory.iterdir()]
+        def remembered():
+            return [path for path in memory.iterdir() if path.suffix != ".cpp"]
+
+        self.assertEqual(len(remembered()), 1)
+        before = [(p.name, p.stat().st_mtime_ns) for p in remembered()]
         self.assertEqual(tidy.check(tree), [])
-        self.assertEqual([(p.name, p.stat().st_mtime_ns) for p in memory.iterdir()], before)
+        self.assertEqual([(p.name, p.stat().st_mtime_ns) for p in remembered()], before)
         (tree.root / "a.h").write_text("#pragma once\ninline int one() { return 1 ; }\n")
         tidy.file_hash.cache_clear()
         self.assertEqual(tidy.check(tree), [])
-        self.assertEqual(len(list(memory.iterdir())), 2)
+        self.assertEqual(len(remembered()), 2)
+
+    def test_two_files_of_a_folder_are_judged_together(self):
+        same = "namespace {\nint count() { return 1; }\n}  // namespace\n"
+        found = tidy.check(self.project(same + "int f() { return count(); }\n",
+                                        b=same + "int g() { return count(); }\n"))
+        self.assertTrue(any("redefinition of 'count'" in line for line in found), found)
 
     def test_a_file_no_target_compiles_is_refused(self):
         tree = self.project('#include "a.h"\nint f() { return one(); }\n')

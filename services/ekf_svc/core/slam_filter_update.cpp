@@ -31,7 +31,7 @@ bool cholesky(Matrix& matrix, std::size_t dimension) {
   return true;
 }
 
-bool is_finite(const Residual& residual) {
+bool residual_is_finite(const Residual& residual) {
   return residual.innovation.allFinite() && residual.noise.allFinite() &&
          residual.heading.allFinite();
 }
@@ -75,7 +75,8 @@ Eigen::Matrix2d SlamFilter::innovation_covariance(const Residual& residual) cons
 UpdateResult SlamFilter::update(std::span<const Residual> residuals) {
   if (residuals.size() > kResidualsMax) throw std::logic_error("SlamFilter: too many residuals");
   if (residuals.empty()) return UpdateResult::kUsed;
-  if (!std::all_of(residuals.begin(), residuals.end(), is_finite)) return UpdateResult::kNotFinite;
+  if (!std::all_of(residuals.begin(), residuals.end(), residual_is_finite))
+    return UpdateResult::kNotFinite;
 
   const std::size_t dimension = 2 * residuals.size();
   InnovationMatrix S;

@@ -8,9 +8,7 @@
 namespace roomwise::landmark {
 namespace {
 
-constexpr int kSideMax_px = 4096;
-
-bool has_side(int px) { return px >= 1 && px <= kSideMax_px; }
+bool has_side(int px) { return px >= 1 && px <= kImageSideMax_px; }
 
 DetectResult check(const RgbdFrame& frame) {
   const DepthImage& depth = frame.depth;

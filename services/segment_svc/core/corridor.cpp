@@ -8,7 +8,7 @@
 namespace roomwise::segment {
 namespace {
 
-constexpr double kCell_m = 0.01;
+constexpr double kBin_m = 0.01;
 constexpr double kNearShare = 0.02;
 
 }  // namespace
@@ -31,7 +31,7 @@ void Corridor::add(const GroundRow& row) {
     const bool is_unknown = row.label[i] == kUnknown;
     if (x_m <= length_m_) ++(is_unknown ? unknown_ : known_);
     if (is_unknown || row.label[i] == kAccessible || row.height_m[i] > robot_height_m_) continue;
-    const float cell = x_m * static_cast<float>(1.0 / kCell_m);
+    const float cell = x_m * static_cast<float>(1.0 / kBin_m);
     if (cell < static_cast<float>(kCells)) ++blocked_[static_cast<std::size_t>(cell)];
   }
 }
@@ -48,7 +48,7 @@ double Corridor::near_quantile_m() const {
   int nearer = 0;
   std::size_t cell = 0;
   while ((nearer += blocked_[cell]) <= kNearShare * total) ++cell;
-  return (static_cast<double>(cell) + 0.5) * kCell_m;
+  return (static_cast<double>(cell) + 0.5) * kBin_m;
 }
 
 }  // namespace roomwise::segment

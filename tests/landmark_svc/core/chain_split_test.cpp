@@ -8,7 +8,7 @@
 namespace roomwise::landmark {
 namespace {
 
-EdgePixel pixel(int u, int v) {
+EdgePixel pixel_at(int u, int v) {
   return {.u_px = static_cast<std::int16_t>(u), .v_px = static_cast<std::int16_t>(v)};
 }
 
@@ -23,7 +23,7 @@ RC_GTEST_PROP(ChainSplit, KeepsEveryPixelOnceAndLeavesNoLongBentPiece, ()) {
   int u = 300;
   for (int v = 400; v > 400 - *rc::gen::inRange(1, 200); --v) {
     u += *rc::gen::inRange(-4, 5);
-    chain.push_back(pixel(u, v));
+    chain.push_back(pixel_at(u, v));
   }
   std::size_t next = 0;
   for (const ChainPiece& piece : split(chain)) {
@@ -42,8 +42,8 @@ RC_GTEST_PROP(ChainSplit, KeepsEveryPixelOnceAndLeavesNoLongBentPiece, ()) {
 
 TEST(ChainSplit, CutsARimFromTheLegBelow) {
   std::vector<EdgePixel> chain;
-  for (int v = 200; v > 120; --v) chain.push_back(pixel(100, v));
-  for (int v = 120; v > 60; --v) chain.push_back(pixel(100 + 3 * (120 - v), v));
+  for (int v = 200; v > 120; --v) chain.push_back(pixel_at(100, v));
+  for (int v = 120; v > 60; --v) chain.push_back(pixel_at(100 + 3 * (120 - v), v));
   const auto pieces = split(chain);
   ASSERT_GE(pieces.size(), 2u);
   EXPECT_NEAR(static_cast<double>(pieces[0].end), 80.0, 3.0);

@@ -18,14 +18,14 @@ SyntheticRoom room_with_wall(double x_m) {
   return {.boxes = {{.low_m = {x_m, -5.0, 0.0}, .high_m = {x_m + 0.1, 5.0, 2.5}}}};
 }
 
-Segmentation segment(const RgbdFrame& frame) {
+Segmentation segmented(const RgbdFrame& frame) {
   Segmentation result;
   Segmenter(SegmentParams{}).segment(frame, result);
   return result;
 }
 
 TEST(FreeRange, EndsAtTheWallAlongEveryBearing) {
-  const Segmentation result = segment(render(room_with_wall(2.5), kRobot, Pose2{}, 1));
+  const Segmentation result = segmented(render(room_with_wall(2.5), kRobot, Pose2{}, 1));
   for (std::size_t k = kAhead - 20; k <= kAhead + 20; ++k) {
     const double bearing_rad =
         FreeRange::first_bearing_rad() + static_cast<double>(k) * FreeRange::step_rad();
@@ -37,7 +37,7 @@ TEST(FreeRange, EndsAtTheWallAlongEveryBearing) {
 TEST(FreeRange, BearingIsPositiveToTheLeft) {
   SyntheticRoom room = room_with_wall(3.0);
   room.boxes.push_back({.low_m = {1.5, 0.3, 0.0}, .high_m = {1.8, 0.6, 0.4}});
-  const Segmentation result = segment(render(room, kRobot, Pose2{}, 1));
+  const Segmentation result = segmented(render(room, kRobot, Pose2{}, 1));
   EXPECT_NEAR(result.bearings[kAhead + 15].free_range_m, 1.55, 0.16);  // 15 degrees left
   EXPECT_GT(result.bearings[kAhead - 15].free_range_m, 2.7);
 }
@@ -45,18 +45,18 @@ TEST(FreeRange, BearingIsPositiveToTheLeft) {
 TEST(FreeRange, CameraBesideTheMiddleSeesTheSameFloor) {
   RgbdFrame frame = render(room_with_wall(2.5), kRobot, Pose2{}, 1);
   frame.T_robot_camera.translation().x() = 0.2;  // 20 cm before the wheels
-  EXPECT_NEAR(segment(frame).bearings[kAhead].free_range_m, 2.7, 0.16);
+  EXPECT_NEAR(segmented(frame).bearings[kAhead].free_range_m, 2.7, 0.16);
 }
 
 TEST(FreeRange, EndsWhereTheFloorIsNotSeen) {
   RgbdFrame frame = render(room_with_wall(4.0), kRobot, Pose2{}, 1);
-  const double free_before_m = segment(frame).bearings[kAhead].free_range_m;
+  const double free_before_m = segmented(frame).bearings[kAhead].free_range_m;
   for (int v = 230; v < 340; ++v) {  // a dark patch or a mirror on the floor
     for (int u = 0; u < 640; ++u) {
       frame.depth.steps[static_cast<std::size_t>(v * 640 + u)] = 0;
     }
   }
-  const Segmentation result = segment(frame);
+  const Segmentation result = segmented(frame);
   EXPECT_GT(free_before_m, 3.0);
   EXPECT_LT(result.bearings[kAhead].free_range_m, 1.5);
   EXPECT_GT(result.bearings[kAhead].unknown_ratio, 0.15);
@@ -69,13 +69,13 @@ TEST(FreeRange, FloorBeyondAnUnseenStretchIsNotFree) {
       frame.depth.steps[static_cast<std::size_t>(v * 640 + u)] = 0;
     }
   }
-  EXPECT_EQ(segment(frame).bearings[kAhead].free_range_m, 0.0);
+  EXPECT_EQ(segmented(frame).bearings[kAhead].free_range_m, 0.0);
 }
 
 TEST(FreeRange, NothingSeenIsNothingFree) {
   RgbdFrame frame = render(room_with_wall(4.0), kRobot, Pose2{}, 1);
   std::fill(frame.depth.steps.begin(), frame.depth.steps.end(), std::uint16_t{0});
-  for (const BearingBin& bin : segment(frame).bearings) {
+  for (const BearingBin& bin : segmented(frame).bearings) {
     EXPECT_EQ(bin.free_range_m, 0.0);
     EXPECT_EQ(bin.unknown_ratio, 1.0);
   }
@@ -84,13 +84,13 @@ TEST(FreeRange, NothingSeenIsNothingFree) {
 TEST(FreeRange, WhatIsHigherThanTheRobotDoesNotStopIt) {
   SyntheticRoom room = room_with_wall(3.0);
   room.boxes.push_back({.low_m = {1.2, -1.0, 0.75}, .high_m = {1.8, 1.0, 0.80}});  // a table top
-  EXPECT_GT(segment(render(room, kRobot, Pose2{}, 1)).bearings[kAhead].free_range_m, 2.7);
+  EXPECT_GT(segmented(render(room, kRobot, Pose2{}, 1)).bearings[kAhead].free_range_m, 2.7);
 }
 
 TEST(Corridor, NearDistanceIsTheObstaclesNotTheFloors) {
   SyntheticRoom room = room_with_wall(3.0);
   room.boxes.push_back({.low_m = {1.4, -0.1, 0.0}, .high_m = {1.6, 0.1, 0.3}});
-  const Segmentation result = segment(render(room, kRobot, Pose2{}, 1));
+  const Segmentation result = segmented(render(room, kRobot, Pose2{}, 1));
   EXPECT_NEAR(result.corridor.near_m, 1.4, 0.05);
   EXPECT_LT(result.corridor.unknown_ratio, 0.05);
   EXPECT_GT(result.distances.mean_m, 1.5);  // the thesis's average never meant the obstacle
@@ -99,7 +99,7 @@ TEST(Corridor, NearDistanceIsTheObstaclesNotTheFloors) {
 TEST(Corridor, WhatStandsBesideItIsNotInTheWay) {
   SyntheticRoom room = room_with_wall(3.0);
   room.boxes.push_back({.low_m = {1.4, 0.35, 0.0}, .high_m = {1.6, 0.6, 0.3}});
-  EXPECT_NEAR(segment(render(room, kRobot, Pose2{}, 1)).corridor.near_m, 3.0, 0.08);
+  EXPECT_NEAR(segmented(render(room, kRobot, Pose2{}, 1)).corridor.near_m, 3.0, 0.08);
 }
 
 TEST(Corridor, CountsUnknownPixelsWhereTheyWouldSeeTheFloor) {
@@ -109,7 +109,7 @@ TEST(Corridor, CountsUnknownPixelsWhereTheyWouldSeeTheFloor) {
       frame.depth.steps[static_cast<std::size_t>(v * 640 + u)] = 0;
     }
   }
-  EXPECT_GT(segment(frame).corridor.unknown_ratio, 0.5);
+  EXPECT_GT(segmented(frame).corridor.unknown_ratio, 0.5);
 }
 
 }  // namespace
