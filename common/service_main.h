@@ -20,6 +20,8 @@ int run_service(std::string_view name, int argc, const char* const* argv, const 
 
 /// main() of a service: `Service` has a type Params and a constructor (Bus&, const Params&).
 ///
+/// Every parameter is also an option, --NAME VALUE, that overrides the file.
+///
 ///   NAME [--params FILE]                                  live, on LCM_DEFAULT_URL
 ///   NAME [--params FILE] --replay IN [--record OUT]       offline, as fast as it can
 template <class Service>

@@ -34,12 +34,24 @@ std::string allowed_values(const ParamField& field) {
                    return c.allowed.empty()
                               ? std::string("a text")
                               : fmt::format("one of \"{}\"", fmt::join(c.allowed, "\", \""));
-                 }},
+                 },
+                 [](std::vector<std::string>*) { return std::string("a list of texts"); }},
       field.slot);
 }
 
 bool contains(const std::vector<std::string>& allowed, const std::string& value) {
   return allowed.empty() || std::find(allowed.begin(), allowed.end(), value) != allowed.end();
+}
+
+std::function<void()> list_assignment(const toml::node& node, std::vector<std::string>* target) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) return {};
+  std::vector<std::string> values;
+  for (const toml::node& element : *array) {
+    if (!element.is_string()) return {};
+    values.push_back(*element.value<std::string>());
+  }
+  return [target, values] { *target = values; };
 }
 
 /// The assignment that puts `node` into the field; empty if the field may not hold it.
@@ -60,6 +72,9 @@ std::function<void()> assignment(const toml::node& node, const ParamField& field
                                  if (!node.is_boolean()) return {};
                                  const bool value = *node.value<bool>();
                                  return [target, value] { *target = value; };
+                               },
+                               [&](std::vector<std::string>* target) -> std::function<void()> {
+                                 return list_assignment(node, target);
                                },
                                [&](const ParamField::Choice& c) -> std::function<void()> {
                                  if (!node.is_string()) return {};
@@ -103,12 +118,19 @@ std::string toml_string(const std::string& value) {
   return text + "\"";
 }
 
+std::string toml_list(const std::vector<std::string>& values) {
+  std::string text = "[";
+  for (const std::string& value : values) text += (text == "[" ? "" : ", ") + toml_string(value);
+  return text + "]";
+}
+
 std::string toml_value(const ParamField& field) {
   return std::visit(
       Overloaded{[](const ParamField::Range<double>& r) { return toml_number(*r.value); },
                  [](const ParamField::Range<int>& r) { return fmt::format("{}", *r.value); },
                  [](bool* value) { return std::string(*value ? "true" : "false"); },
-                 [](const ParamField::Choice& c) { return toml_string(*c.value); }},
+                 [](const ParamField::Choice& c) { return toml_string(*c.value); },
+                 [](std::vector<std::string>* values) { return toml_list(*values); }},
       field.slot);
 }
 
@@ -134,6 +156,17 @@ void apply_toml(std::string_view toml, std::string_view source, const ParamField
                                          error.source().begin.line, error.description()));
   }
   for (const auto& assign : assignments) assign();
+}
+
+void apply_text(const ParamField& field, const std::vector<std::string>& texts,
+                const ParamFields& fields) {
+  const std::string& last = texts.back();
+  const std::string value =
+      std::visit(Overloaded{[&](const auto&) { return last; },
+                            [&](const ParamField::Choice&) { return toml_string(last); },
+                            [&](std::vector<std::string>*) { return toml_list(texts); }},
+                 field.slot);
+  apply_toml(fmt::format("{} = {}", field.name, value), "command line", fields);
 }
 
 std::string to_toml(const ParamFields& fields) {

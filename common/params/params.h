@@ -22,7 +22,7 @@ struct ParamField {
     std::vector<std::string> allowed;  ///< empty: any text
   };
   std::string name;
-  std::variant<Range<double>, Range<int>, bool*, Choice> slot;
+  std::variant<Range<double>, Range<int>, bool*, Choice, std::vector<std::string>*> slot;
 };
 
 /// Collects the fields a parameter struct names in its visit_fields:
@@ -32,6 +32,7 @@ struct ParamField {
 ///     field("rows_min", rows_min, 1, 480);
 ///     field("publish_edges", publish_edges);
 ///     field("method", method, {"thesis", "disparity"});
+///     field("fault", fault);                                     // a list of texts
 ///   }
 class ParamFields {
  public:
@@ -54,6 +55,9 @@ class ParamFields {
         {std::string(name),
          ParamField::Choice{&value, std::vector<std::string>(allowed.begin(), allowed.end())}});
   }
+  void operator()(std::string_view name, std::vector<std::string>& values) {
+    fields_.push_back({std::string(name), &values});
+  }
   const std::vector<ParamField>& fields() const { return fields_; }
 
  private:
@@ -64,6 +68,11 @@ class ParamFields {
 /// "source:line: name must be ..." on a key no field has, a wrong type, a value out of range or
 /// text that is not TOML; the fields are then as they were.
 void apply_toml(std::string_view toml, std::string_view source, const ParamFields& fields);
+
+/// Overwrites one field with what a command line says of it: one text, or several for a list.
+/// Throws as apply_toml.
+void apply_text(const ParamField& field, const std::vector<std::string>& texts,
+                const ParamFields& fields);
 
 /// The values in force as a TOML text that apply_toml reads back exactly.
 std::string to_toml(const ParamFields& fields);

@@ -3,6 +3,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "common/params/params.h"
 
 namespace roomwise {
 
@@ -14,6 +17,13 @@ struct Options {
   std::filesystem::path record_path;  ///< empty: nothing is recorded; replay only
   bool outputs_only = false;          ///< record what the service publishes without its input
 
+  /// What the command line says of parameters, one entry for each it names.
+  struct Setting {
+    ParamField field;
+    std::vector<std::string> texts;
+  };
+  std::vector<Setting> settings;
+
   bool is_replay() const { return !replay_path.empty(); }
 };
 
@@ -24,6 +34,8 @@ struct ParsedOptions {
   int exit_status = 0;
 };
 
-ParsedOptions parse_options(std::string_view service, int argc, const char* const* argv);
+/// Each parameter is an option of its own name as well: --range_noise_m 0.1.
+ParsedOptions parse_options(std::string_view service, int argc, const char* const* argv,
+                            const ParamFields& params);
 
 }  // namespace roomwise

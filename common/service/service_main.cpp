@@ -56,9 +56,10 @@ int run_service(std::string_view name_view, int argc, const char* const* argv,
       std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_st>()));
   spdlog::set_pattern("%v");
   try {
-    const ParsedOptions parsed = parse_options(name, argc, argv);
+    const ParsedOptions parsed = parse_options(name, argc, argv, params);
     if (!parsed.options) return parsed.exit_status;
     if (!parsed.options->params_path.empty()) load_params_file(parsed.options->params_path, params);
+    for (const auto& [field, texts] : parsed.options->settings) apply_text(field, texts, params);
     const StopSignals signals;
     const auto run = parsed.options->is_replay() ? run_replay : run_live;
     return run(*parsed.options, name, params, make_service);

@@ -109,6 +109,15 @@ void params_seeds(Corpus corpus) {
   corpus.add("rows_min = 99999999999\nunknown = [1, {a = 1979-05-27}]\n");
 }
 
+/// Two bytes of choices, then what hosts send.
+void create_seeds(Corpus corpus) {
+  corpus.add(Bytes{0, 0, 128, 131, 148, 1, 100, 145, 0, 200, 0, 200, 142, 35, 150, 0, 150, 1, 173});
+  corpus.add(Bytes{4, 6, 128, 132, 137, 255, 56, 1, 244, 149, 3, 7, 43, 20, 129, 7, 7, 133});
+  corpus.add(
+      Bytes{1, 1, 128, 131, 152, 6, 137, 0, 100, 128, 0, 153, 153, 155, 1, 158, 5, 154, 136});
+  corpus.add(Bytes{10, 17, 128, 140, 0, 1, 60, 8, 141, 0, 135, 131, 146, 0, 255, 255, 1, 201});
+}
+
 void log_seeds(Corpus corpus, const std::filesystem::path& scratch) {
   {
     LogWriter writer(scratch);
@@ -149,6 +158,7 @@ void make_seeds(const std::filesystem::path& folder) {
   wire_seeds(Corpus(folder / "fuzz_wire"), AllMessages{});
   params_seeds(Corpus(folder / "fuzz_params"));
   serial_seeds(Corpus(folder / "fuzz_oi_decoder"));
+  create_seeds(Corpus(folder / "fuzz_create_emulator"));
   log_seeds(Corpus(folder / "fuzz_log_reader"), folder / "seed.lcmlog");
 }
 

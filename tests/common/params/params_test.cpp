@@ -17,6 +17,7 @@ struct SampleParams {
   bool publish_edges = true;
   std::string method = "disparity";
   std::string model_path;
+  std::vector<std::string> fault;
 
   template <class Field>
   void visit_fields(Field&& field) {
@@ -25,6 +26,7 @@ struct SampleParams {
     field("publish_edges", publish_edges);
     field("method", method, {"thesis", "disparity"});
     field("model_path", model_path);
+    field("fault", fault);
   }
 };
 
@@ -64,8 +66,43 @@ TEST(Params, RefusesByFileLineAndName) {
   EXPECT_EQ(refusal("method = 'x'"), "p.toml:1: method must be one of \"thesis\", \"disparity\"");
   EXPECT_EQ(refusal("\nrows = 3"),
             "p.toml:2: rows must be one of the parameters range_noise_m, rows_min, publish_edges, "
-            "method, model_path");
+            "method, model_path, fault");
   EXPECT_EQ(refusal("[rows_min]\na = 1"), "p.toml:1: rows_min must be a whole number in [1, 480]");
+}
+
+TEST(Params, ReadsAListOfTexts) {
+  SampleParams params;
+  apply_toml("fault = ['at_s=1', 'at_s=2']", "p.toml", ParamFields(params));
+  EXPECT_EQ(params.fault, (std::vector<std::string>{"at_s=1", "at_s=2"}));
+  EXPECT_NE(to_toml(ParamFields(params)).find("fault = [\"at_s=1\", \"at_s=2\"]\n"),
+            std::string::npos);
+  EXPECT_EQ(refusal("fault = 'at_s=1'"), "p.toml:1: fault must be a list of texts");
+  EXPECT_EQ(refusal("fault = [1]"), "p.toml:1: fault must be a list of texts");
+}
+
+TEST(Params, ACommandLineSetsEveryType) {
+  SampleParams params;
+  const ParamFields fields(params);
+  const std::vector<std::vector<std::string>> kTexts = {{"0.5"},    {"20"},      {"false"},
+                                                        {"thesis"}, {"a \"b\""}, {"one", "two"}};
+  for (std::size_t i = 0; i < kTexts.size(); ++i) apply_text(fields.fields()[i], kTexts[i], fields);
+  EXPECT_EQ(params.range_noise_m, 0.5);
+  EXPECT_EQ(params.rows_min, 20);
+  EXPECT_FALSE(params.publish_edges);
+  EXPECT_EQ(params.method, "thesis");
+  EXPECT_EQ(params.model_path, "a \"b\"");
+  EXPECT_EQ(params.fault, (std::vector<std::string>{"one", "two"}));
+}
+
+TEST(Params, ACommandLineIsJudgedAsAFileIs) {
+  SampleParams params;
+  const ParamFields fields(params);
+  try {
+    apply_text(fields.fields()[1], {"481"}, fields);
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "command line:1: rows_min must be a whole number in [1, 480]");
+  }
 }
 
 TEST(Params, RefusesTextThatIsNotToml) {

@@ -160,6 +160,13 @@ TEST_F(ServiceMainTest, PublishesTheParametersInForce) {
   EXPECT_EQ(messages(out_, channels::kParams).at(0).toml, "scale_ratio = 3.0\n");
 }
 
+TEST_F(ServiceMainTest, CommandLineOverridesTheParameterFile) {
+  write_params("scale_ratio = 3");
+  EXPECT_EQ(replay({"--params", params_, "--scale_ratio", "4"}), 0);
+  EXPECT_EQ(messages(out_, channels::kPose).at(0).x_m, 4.0);
+  EXPECT_EQ(replay({"--scale_ratio", "11"}), 1);
+}
+
 TEST_F(ServiceMainTest, RefusesBadParametersAndRecordsNothing) {
   write_params("scale_ratio = 11");
   EXPECT_EQ(replay({"--params", params_}), 1);

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "common/bus/bus.h"
+#include "services/simulator/device/pty.h"
+#include "services/simulator/real_time.h"
+#include "services/simulator/simulated_world.h"
+#include "services/simulator/simulator_params.h"
+
+namespace roomwise::simulator {
+
+/// An instant at which the simulated camera takes a frame.
+struct CameraMoment {
+  Time stamp;
+  double t_s = 0.0;  ///< since the world began: where its walkers are
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+};
+
+/// The simulated world in real time: a Create on a pseudo-terminal, TRUTH at 60 Hz with the true
+/// landmarks once a second, and the camera's moments at 30 Hz.
+///
+/// The world lives in steps of a millisecond by the monotonic clock. After a hiccup it lives
+/// through every step it missed, up to catch_up_s; what is left out beyond that is counted.
+class SimulatorService {
+ public:
+  using Params = SimulatorParams;
+
+  /// Throws std::runtime_error on a scenario or fault that cannot be read, a port that cannot be
+  /// made, and in a replay: a simulator has no input to replay.
+  SimulatorService(Bus& bus, const Params& params);
+
+  /// Hands every camera moment to `take`, on the bus's thread: it must not wait for a frame.
+  void on_camera_moment(std::function<void(const CameraMoment&)> take) {
+    take_camera_moment_ = std::move(take);
+  }
+
+ private:
+  void advance();
+  void listen();
+  void step();
+  void answer();
+
+  Bus& bus_;
+  Duration longest_catch_up_;
+  SimulatedWorld world_;
+  Pty port_;
+  RealTime real_time_;
+  std::function<void(const CameraMoment&)> take_camera_moment_;
+  std::vector<std::uint8_t> from_host_;
+  std::vector<std::uint8_t> to_host_;
+  std::int64_t line_bytes_lost_ = 0;
+};
+
+}  // namespace roomwise::simulator
