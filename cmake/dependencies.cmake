@@ -27,3 +27,9 @@ find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
+
+# OpenNI2: clients link our own folder's symlink (services/kinect_pub); drivers need headers alone.
+pkg_check_modules(OPENNI2 REQUIRED libopenni2)
+add_library(openni2_headers INTERFACE)
+target_include_directories(openni2_headers SYSTEM INTERFACE ${OPENNI2_INCLUDE_DIRS})
+pkg_check_modules(FREENECT REQUIRED IMPORTED_TARGET libfreenect)
