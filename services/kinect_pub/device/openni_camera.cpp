@@ -60,15 +60,17 @@ OpenNiCamera::OpenNiCamera(OpenNiLibrary& library, const CameraRequest& request)
 OpenNiCamera::~OpenNiCamera() { release(); }
 
 void OpenNiCamera::refuse(const std::string& what) const {
-  const std::string device = request_.uri.empty() ? "no camera" : request_.uri;
+  const std::string device = facts_.uri.empty() ? request_.uri : facts_.name + " " + facts_.uri;
   const std::string detail = openni_error();
-  throw std::runtime_error((facts_.name.empty() ? device : facts_.name + " " + facts_.uri) + ": " +
-                           what + (detail.empty() ? "" : " (" + detail + ")"));
+  throw std::runtime_error(device + ": " + what + (detail.empty() ? "" : " (" + detail + ")"));
 }
 
 void OpenNiCamera::open_device() {
   const char* uri = request_.uri.empty() ? openni::ANY_DEVICE : request_.uri.c_str();
-  if (device_.open(uri) != openni::STATUS_OK) refuse("cannot be opened");
+  if (device_.open(uri) != openni::STATUS_OK) {
+    if (uri == openni::ANY_DEVICE) throw std::runtime_error("no camera is connected");
+    refuse("cannot be opened");
+  }
   const openni::DeviceInfo& info = device_.getDeviceInfo();
   facts_.name = std::string(info.getVendor()) + " " + info.getName();
   facts_.uri = info.getUri();

@@ -12,6 +12,7 @@ inline std::string openni_error() {
     if (letter == '\n' || letter == '\t') letter = ' ';
   }
   text.erase(text.find_last_not_of(' ') + 1);
+  text.erase(0, text.find_first_not_of(' '));
   return text;
 }
 

@@ -11,8 +11,8 @@
 
 namespace roomwise {
 
-/// OpenNI2 itself, from initialize to shutdown, and what it says of devices that come and go. Not
-/// more than one in a process.
+/// OpenNI2 itself, started once for the life of the process, and what it says of devices that come
+/// and go.
 class OpenNiLibrary : private openni::OpenNI::DeviceConnectedListener,
                       private openni::OpenNI::DeviceDisconnectedListener,
                       private openni::OpenNI::DeviceStateChangedListener {
