@@ -21,8 +21,8 @@ OpenNiLibrary::~OpenNiLibrary() {
   OpenNI::removeDeviceConnectedListener(this);
   OpenNI::removeDeviceDisconnectedListener(this);
   OpenNI::removeDeviceStateChangedListener(this);
-  // No OpenNI::shutdown(): it holds OpenNI2's lock while it waits for drivers, and a driver's thread
-  // that reports a device gone at that moment waits for that lock. The process ends anyway.
+  // No OpenNI::shutdown(): it holds OpenNI2's lock while it waits for drivers, and a driver's
+  // thread that reports a device gone at that moment waits for that lock. The process ends anyway.
 }
 
 std::string OpenNiLibrary::version() const {
