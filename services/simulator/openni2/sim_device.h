@@ -1,7 +1,6 @@
 #pragma once
 #include <Driver/OniDriverAPI.h>
 
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <memory>
@@ -9,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "common/openni2/image_stream.h"
 #include "services/simulator/device/frame_door_reader.h"
-#include "services/simulator/openni2/sim_stream.h"
 
 namespace roomwise::simulator {
 
@@ -35,11 +34,11 @@ class SimDevice : public oni::driver::DeviceBase {
   void carry_frames();
   void deliver(const DoorFrame& frame);
   void ask_for_frames();
+  ImageStreamSettings settings_of(OniSensorType sensor);
 
   FrameDoorReader reader_;
-  std::array<OniSensorInfo, 2> sensors_;
   std::mutex mutex_;  ///< never held while a frame is handed to OpenNI2, which has locks of its own
-  std::vector<std::shared_ptr<SimStream>> streams_;
+  std::vector<std::shared_ptr<ImageStream>> streams_;
   bool registered_ = false;
   std::atomic<bool> stopping_{false};
   std::thread carrier_;

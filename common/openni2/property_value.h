@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace roomwise::simulator {
+namespace roomwise {
 
 /// Copies a property out, the way OpenNI2 asks for one. `size` must be exactly the value's.
 template <class Value>
@@ -32,4 +32,4 @@ OniStatus take_value(const void* data, int size, Value& value) {
   return ONI_STATUS_OK;
 }
 
-}  // namespace roomwise::simulator
+}  // namespace roomwise

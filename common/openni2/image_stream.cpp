@@ -1,27 +1,17 @@
-#include "services/simulator/openni2/sim_stream.h"
+#include "common/openni2/image_stream.h"
 
 #include <OniCProperties.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstring>
 
-#include "services/simulator/openni2/property_value.h"
+#include "common/openni2/property_value.h"
 
-namespace roomwise::simulator {
+namespace roomwise {
 namespace {
 
 constexpr int kMaxDepth_mm = 10000;
-
-std::array<OniVideoMode, 2> modes(OniPixelFormat format) {
-  return {{{format, 640, 480, 30}, {format, 320, 240, 30}}};
-}
-
-std::array<OniVideoMode, 2>& offered_modes(OniSensorType sensor) {
-  static std::array<OniVideoMode, 2> depth = modes(ONI_PIXEL_FORMAT_DEPTH_1_MM);
-  static std::array<OniVideoMode, 2> color = modes(ONI_PIXEL_FORMAT_RGB888);
-  return sensor == ONI_SENSOR_DEPTH ? depth : color;
-}
 
 bool operator==(const OniVideoMode& a, const OniVideoMode& b) {
   return a.pixelFormat == b.pixelFormat && a.resolutionX == b.resolutionX &&
@@ -45,43 +35,45 @@ void copy_reversed(const std::uint8_t* from, int pixels, std::uint8_t* to) {
 
 }  // namespace
 
-SimStream::SimStream(OniSensorType sensor, const PinholeCamera& camera,
-                     std::function<void()> mode_changed)
-    : sensor_(sensor),
-      camera_(camera),
-      mode_changed_(std::move(mode_changed)),
-      mode_(offered_modes(sensor)[0]) {}
+ImageStream::ImageStream(ImageStreamSettings settings)
+    : settings_(std::move(settings)),
+      mode_(settings_.modes.at(0)),
+      mirrored_(settings_.mirrored ? TRUE : FALSE) {}
 
-OniSensorInfo SimStream::describe(OniSensorType sensor) {
-  auto& offered = offered_modes(sensor);
-  return {sensor, static_cast<int>(offered.size()), offered.data()};
-}
-
-OniStatus SimStream::start() {
-  const std::lock_guard lock(mutex_);
-  running_ = true;
-  return ONI_STATUS_OK;
-}
-
-void SimStream::stop() {
+// The driver is told without our lock: it may be waiting to deliver to us.
+OniStatus ImageStream::start() {
+  {
+    const std::lock_guard lock(mutex_);
+    running_ = true;
+  }
+  if (settings_.start()) return ONI_STATUS_OK;
   const std::lock_guard lock(mutex_);
   running_ = false;
+  return ONI_STATUS_ERROR;
 }
 
-int SimStream::width_px() const {
+void ImageStream::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!running_) return;
+    running_ = false;
+  }
+  settings_.stop();
+}
+
+OniVideoMode ImageStream::mode() const {
   const std::lock_guard lock(mutex_);
-  return mode_.resolutionX;
+  return mode_;
 }
 
-void SimStream::set_registered(bool registered) {
+void ImageStream::set_registered(bool registered) {
   const std::lock_guard lock(mutex_);
   registered_ = registered;
 }
 
-OniStatus SimStream::set_mode(const OniVideoMode& mode) {
-  const auto& offered = offered_modes(sensor_);
+OniStatus ImageStream::set_mode(const OniVideoMode& mode) {
   const bool is_offered = std::ranges::any_of(
-      offered, [&](const OniVideoMode& candidate) { return candidate == mode; });
+      settings_.modes, [&](const OniVideoMode& candidate) { return candidate == mode; });
   if (!is_offered) return ONI_STATUS_NOT_SUPPORTED;
   if (mode == mode_) return ONI_STATUS_OK;
   if (running_) return ONI_STATUS_OUT_OF_FLOW;
@@ -90,7 +82,7 @@ OniStatus SimStream::set_mode(const OniVideoMode& mode) {
   return ONI_STATUS_OK;
 }
 
-OniStatus SimStream::set_cropping(const OniCropping& cropping) {
+OniStatus ImageStream::set_cropping(const OniCropping& cropping) {
   if (cropping.enabled != FALSE) {
     const bool inside = cropping.originX >= 0 && cropping.originY >= 0 && cropping.width > 0 &&
                         cropping.height > 0 &&
@@ -102,7 +94,7 @@ OniStatus SimStream::set_cropping(const OniCropping& cropping) {
   return ONI_STATUS_OK;
 }
 
-OniStatus SimStream::setProperty(int id, const void* data, int size) {
+OniStatus ImageStream::setProperty(int id, const void* data, int size) {
   if (id == ONI_STREAM_PROPERTY_VIDEO_MODE) {
     OniVideoMode mode{};
     OniStatus status = take_value(data, size, mode);
@@ -110,7 +102,7 @@ OniStatus SimStream::setProperty(int id, const void* data, int size) {
       const std::lock_guard lock(mutex_);
       status = set_mode(mode);
     }
-    if (status == ONI_STATUS_OK) mode_changed_();
+    if (status == ONI_STATUS_OK) settings_.mode_changed();
     return status;
   }
   const std::lock_guard lock(mutex_);
@@ -131,19 +123,20 @@ OniStatus SimStream::setProperty(int id, const void* data, int size) {
   }
 }
 
-OniStatus SimStream::getProperty(int id, void* data, int* size) {
+OniStatus ImageStream::getProperty(int id, void* data, int* size) {
   const std::lock_guard lock(mutex_);
   if (isPropertySupported(id) == FALSE) return ONI_STATUS_NOT_SUPPORTED;
   switch (id) {
     case ONI_STREAM_PROPERTY_CROPPING:
       return give_value(cropping_, data, size);
     case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
+      return give_value(settings_.horizontal_fov_rad, data, size);
     case ONI_STREAM_PROPERTY_VERTICAL_FOV:
-      return give_value(field_of_view_rad(id), data, size);
+      return give_value(settings_.vertical_fov_rad, data, size);
     case ONI_STREAM_PROPERTY_VIDEO_MODE:
       return give_value(mode_, data, size);
     case ONI_STREAM_PROPERTY_MAX_VALUE:
-      return give_value(sensor_ == ONI_SENSOR_DEPTH ? kMaxDepth_mm : 255, data, size);
+      return give_value(settings_.sensor == ONI_SENSOR_DEPTH ? kMaxDepth_mm : 255, data, size);
     case ONI_STREAM_PROPERTY_MIN_VALUE:
       return give_value(int{0}, data, size);
     case ONI_STREAM_PROPERTY_STRIDE:
@@ -157,7 +150,7 @@ OniStatus SimStream::getProperty(int id, void* data, int* size) {
   }
 }
 
-OniBool SimStream::isPropertySupported(int id) {
+OniBool ImageStream::isPropertySupported(int id) {
   switch (id) {
     case ONI_STREAM_PROPERTY_CROPPING:  // without it a recording plays back no frames
     case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
@@ -170,13 +163,13 @@ OniBool SimStream::isPropertySupported(int id) {
       return TRUE;
     case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:
     case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
-      return sensor_ == ONI_SENSOR_COLOR ? TRUE : FALSE;
+      return settings_.sensor == ONI_SENSOR_COLOR ? TRUE : FALSE;
     default:
       return FALSE;
   }
 }
 
-void SimStream::notifyAllProperties() {
+void ImageStream::notifyAllProperties() {
   for (int id = 0; id <= ONI_STREAM_PROPERTY_AUTO_EXPOSURE; ++id) {
     if (isPropertySupported(id) == FALSE) continue;
     std::array<std::uint8_t, sizeof(OniCropping)> value{};
@@ -186,46 +179,33 @@ void SimStream::notifyAllProperties() {
   }
 }
 
-OniStatus SimStream::convertDepthToColorCoordinates(oni::driver::StreamBase* color, int depth_x,
-                                                    int depth_y, OniDepthPixel /*depth_z*/,
-                                                    int* color_x, int* color_y) {
+OniStatus ImageStream::convertDepthToColorCoordinates(oni::driver::StreamBase* color, int depth_x,
+                                                      int depth_y, OniDepthPixel /*depth_z*/,
+                                                      int* color_x, int* color_y) {
   const std::lock_guard lock(mutex_);
   if (!registered_) return ONI_STATUS_NOT_SUPPORTED;
-  const int color_width_px = static_cast<SimStream*>(color)->width_px();
+  const int color_width_px = static_cast<ImageStream*>(color)->mode().resolutionX;
   *color_x = depth_x * color_width_px / mode_.resolutionX;
   *color_y = depth_y * color_width_px / mode_.resolutionX;
   return ONI_STATUS_OK;
 }
 
-int SimStream::stride() const {
+int ImageStream::stride() const {
   const int width_px = cropping_.enabled != FALSE ? cropping_.width : mode_.resolutionX;
   return width_px * bytes_per_pixel();
 }
 
-float SimStream::field_of_view_rad(int id) const {
-  return id == ONI_STREAM_PROPERTY_HORIZONTAL_FOV
-             ? static_cast<float>(2.0 * std::atan(320.0 / camera_.fx_px))
-             : static_cast<float>(2.0 * std::atan(240.0 / camera_.fy_px));
-}
-
-SimStream::Image SimStream::image_in(const DoorFrame& frame) const {
-  if (sensor_ == ONI_SENSOR_DEPTH) {
-    return {reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data()), frame.depth_width_px,
-            frame.depth_height_px};
-  }
-  return {frame.rgb.data(), frame.color_width_px, frame.color_height_px};
-}
-
-void SimStream::deliver(const DoorFrame& frame) {
+void ImageStream::deliver(const DriverImage& image) {
   const std::lock_guard lock(mutex_);
-  const Image image = image_in(frame);
-  if (!running_ || image.width_px != mode_.resolutionX) return;
+  if (!running_ || image.width_px != mode_.resolutionX || image.height_px != mode_.resolutionY) {
+    return;
+  }
   OniFrame* out = getServices().acquireFrame();
   if (out == nullptr) return;
   const bool cropped = cropping_.enabled != FALSE;
-  out->sensorType = sensor_;
-  out->timestamp = static_cast<std::uint64_t>(frame.device_time_us);
-  out->frameIndex = static_cast<int>(frame.number);
+  out->sensorType = settings_.sensor;
+  out->timestamp = static_cast<std::uint64_t>(image.time_us);
+  out->frameIndex = static_cast<int>(image.number);
   out->videoMode = mode_;
   out->croppingEnabled = cropping_.enabled;
   out->cropOriginX = cropped ? cropping_.originX : 0;
@@ -239,21 +219,21 @@ void SimStream::deliver(const DoorFrame& frame) {
   getServices().releaseFrame(out);
 }
 
-void SimStream::copy_rows(const Image& image, OniFrame& out) const {
+void ImageStream::copy_rows(const DriverImage& image, OniFrame& out) const {
   const auto pixel = static_cast<std::size_t>(bytes_per_pixel());
   const auto row_size = pixel * static_cast<std::size_t>(image.width_px);
   // A cropped rectangle is one of the image as delivered: mirrored first, if it is.
   const int first =
       mirrored_ != FALSE ? image.width_px - out.cropOriginX - out.width : out.cropOriginX;
   for (int row = 0; row < out.height; ++row) {
-    const std::uint8_t* from = image.pixels +
+    const std::uint8_t* from = static_cast<const std::uint8_t*>(image.pixels) +
                                row_size * static_cast<std::size_t>(row + out.cropOriginY) +
                                pixel * static_cast<std::size_t>(first);
     std::uint8_t* to =
         static_cast<std::uint8_t*>(out.data) + static_cast<std::ptrdiff_t>(row) * out.stride;
     if (mirrored_ == FALSE) {
       std::memcpy(to, from, static_cast<std::size_t>(out.stride));
-    } else if (sensor_ == ONI_SENSOR_DEPTH) {
+    } else if (settings_.sensor == ONI_SENSOR_DEPTH) {
       copy_reversed<2>(from, out.width, to);
     } else {
       copy_reversed<3>(from, out.width, to);
@@ -261,4 +241,4 @@ void SimStream::copy_rows(const Image& image, OniFrame& out) const {
   }
 }
 
-}  // namespace roomwise::simulator
+}  // namespace roomwise
