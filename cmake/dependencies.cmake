@@ -27,3 +27,23 @@ find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
+
+# OpenNI2 looks for drivers beside the library as it was loaded. Ours is a folder of links, so that
+# our drivers stand beside the stock ones; programs find it by their RUNPATH (BUILD_RPATH).
+pkg_check_modules(OPENNI2 REQUIRED libopenni2)
+find_library(OPENNI2_LIBRARY OpenNI2 REQUIRED)
+add_library(openni2_headers INTERFACE)
+target_include_directories(openni2_headers SYSTEM INTERFACE ${OPENNI2_INCLUDE_DIRS})
+add_library(openni2_client INTERFACE)
+target_link_libraries(openni2_client INTERFACE openni2_headers ${OPENNI2_LIBRARY})
+get_filename_component(openni2_folder ${OPENNI2_LIBRARY} DIRECTORY)
+set(ROOMWISE_OPENNI2_RPATH "\$ORIGIN/../openni2")
+set(ROOMWISE_OPENNI2_DRIVERS ${CMAKE_BINARY_DIR}/openni2/OpenNI2/Drivers)
+file(MAKE_DIRECTORY ${ROOMWISE_OPENNI2_DRIVERS})
+file(CREATE_LINK ${openni2_folder}/libOpenNI2.so.0 ${CMAKE_BINARY_DIR}/openni2/libOpenNI2.so.0
+     SYMBOLIC)
+foreach(driver PS1080 PSLink OniFile)
+  file(CREATE_LINK ${openni2_folder}/OpenNI2/Drivers/lib${driver}.so.0
+       ${ROOMWISE_OPENNI2_DRIVERS}/lib${driver}.so.0 SYMBOLIC)
+endforeach()
+pkg_check_modules(FREENECT REQUIRED IMPORTED_TARGET libfreenect)

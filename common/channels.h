@@ -20,6 +20,7 @@ struct Channel {
 namespace channels {
 // clang-format off
 inline constexpr Channel<kinect_frame_t> kKinectFrame{"KINECT_FRAME", "30", "kinect_pub", "landmark_svc, segment_svc, safety_svc, viewer"};
+inline constexpr Channel<device_status_t> kKinectStatus{"KINECT_STATUS", "1 + on change", "kinect_pub", "viewer, rwlog"};
 inline constexpr Channel<landmark_list_t> kLandmarks{"LANDMARKS", "<= 30", "landmark_svc", "ekf_svc, viewer"};
 inline constexpr Channel<segmentation_t> kSegments{"SEGMENTS", "<= 30", "segment_svc", "safety_svc, pilot_svc, viewer"};
 inline constexpr Channel<segment_training_t> kSegmentTrain{"SEGMENT_TRAIN", "on event", "viewer, rwlog", "segment_svc"};
@@ -35,9 +36,10 @@ inline constexpr Channel<params_t> kParams{"PARAMS", "1", "every process", "view
 }  // namespace channels
 
 /// Every channel, for tools that must treat them all.
-inline constexpr auto kAllChannels = std::make_tuple(
-    channels::kKinectFrame, channels::kLandmarks, channels::kSegments, channels::kSegmentTrain,
-    channels::kCreateState, channels::kOdometry, channels::kVelCmd, channels::kPose,
-    channels::kLandmarkMap, channels::kTruth, channels::kHealth, channels::kParams);
+inline constexpr auto kAllChannels =
+    std::make_tuple(channels::kKinectFrame, channels::kKinectStatus, channels::kLandmarks,
+                    channels::kSegments, channels::kSegmentTrain, channels::kCreateState,
+                    channels::kOdometry, channels::kVelCmd, channels::kPose, channels::kLandmarkMap,
+                    channels::kTruth, channels::kHealth, channels::kParams);
 
 }  // namespace roomwise

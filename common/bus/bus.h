@@ -51,7 +51,12 @@ class Bus {
   /// time. Live, periods missed while a handler ran are left out.
   virtual void every(Duration period, Tick tick) = 0;
 
-  /// Live: the wall clock. Offline: the time of the log event being handled.
+  /// Runs `work` soon on the thread that is in run(): how a thread of a service's own (a camera's)
+  /// reaches the bus. May be called from any thread. Only live: throws std::logic_error in a
+  /// replay, which must not depend on threads.
+  virtual void post(std::function<void()> work) = 0;
+
+  /// Live: the wall clock (from any thread). Offline: the time of the log event being handled.
   virtual Time now() const = 0;
 
   /// Hands out messages and ticks until stop(), or offline until the log ends.

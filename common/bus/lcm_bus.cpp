@@ -1,8 +1,11 @@
 #include "common/bus/lcm_bus.h"
 
 #include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <stdexcept>
@@ -21,12 +24,16 @@ constexpr Duration kLongestWait{50'000};
 
 }  // namespace
 
-LcmBus::LcmBus(const std::string& url) : url_(url), lcm_(url) {
+LcmBus::LcmBus(const std::string& url)
+    : url_(url), lcm_(url), post_event_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+  if (post_event_ < 0) throw std::runtime_error("no eventfd for posted work");
   if (!lcm_.good()) {
     throw std::runtime_error("cannot open LCM on " + url +
                              " (is there a multicast route? ip route add 224.0.0.0/4 dev lo)");
   }
 }
+
+LcmBus::~LcmBus() { ::close(post_event_); }
 
 void LcmBus::every(Duration period, Tick tick) {
   periodics_.push_back({period, std::move(tick), next_multiple(now(), period)});
@@ -41,6 +48,7 @@ void LcmBus::run() {
     wait_for_message();
     fill_inbox();
     empty_inbox();
+    do_posted_work();
     fire_due_ticks();
   }
 }
@@ -49,8 +57,29 @@ void LcmBus::wait_for_message() {
   Duration wait = kLongestWait;
   for (const Periodic& periodic : periodics_) wait = std::min(wait, periodic.next - now());
   const auto wait_ms = std::chrono::ceil<std::chrono::milliseconds>(std::max(wait, Duration{0}));
-  pollfd readable{.fd = lcm_.getFileno(), .events = POLLIN, .revents = 0};
-  ::poll(&readable, 1, static_cast<int>(wait_ms.count()));  // a signal ends it early, as it should
+  std::array<pollfd, 2> readable{{{.fd = lcm_.getFileno(), .events = POLLIN, .revents = 0},
+                                  {.fd = post_event_, .events = POLLIN, .revents = 0}}};
+  // A signal ends it early, as it should.
+  ::poll(readable.data(), readable.size(), static_cast<int>(wait_ms.count()));
+}
+
+void LcmBus::post(std::function<void()> work) {
+  {
+    const std::lock_guard lock(posted_mutex_);
+    posted_.push_back(std::move(work));
+  }
+  ::eventfd_write(post_event_, 1);
+}
+
+void LcmBus::do_posted_work() {
+  eventfd_t posts = 0;
+  ::eventfd_read(post_event_, &posts);
+  std::vector<std::function<void()>> posted;
+  {
+    const std::lock_guard lock(posted_mutex_);
+    posted.swap(posted_);
+  }
+  for (const auto& work : posted) work();
 }
 
 void LcmBus::fill_inbox() {

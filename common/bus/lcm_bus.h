@@ -1,6 +1,8 @@
 #pragma once
 #include <deque>
+#include <functional>
 #include <lcm/lcm-cpp.hpp>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,10 @@ class LcmBus : public Bus {
  public:
   /// Throws std::runtime_error naming the URL if LCM cannot be opened on it.
   explicit LcmBus(const std::string& url);
+  ~LcmBus() override;
 
   void every(Duration period, Tick tick) override;
+  void post(std::function<void()> work) override;
   Time now() const override;
   void run() override;
   bool is_replay() const override { return false; }
@@ -38,6 +42,7 @@ class LcmBus : public Bus {
   void wait_for_message();
   void fill_inbox();
   void empty_inbox();
+  void do_posted_work();
   void fire_due_ticks();
 
   std::string url_;
@@ -46,6 +51,9 @@ class LcmBus : public Bus {
   std::deque<LogEvent> inbox_;
   std::vector<LogEvent> spare_;  ///< handled events whose memory is used again
   std::vector<Periodic> periodics_;
+  int post_event_;  ///< readable while there is posted work
+  std::mutex posted_mutex_;
+  std::vector<std::function<void()>> posted_;
 };
 
 }  // namespace roomwise

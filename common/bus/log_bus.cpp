@@ -1,6 +1,7 @@
 #include "common/bus/log_bus.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace roomwise {
@@ -33,6 +34,10 @@ LogBus::LogBus(const std::vector<LogEvent>& input, std::vector<LogEvent>& output
             return true;
           },
           [&output](const LogEvent& event) { output.push_back(event); }) {}
+
+void LogBus::post(std::function<void()> /*work*/) {
+  throw std::logic_error("a replay takes no work from other threads");
+}
 
 void LogBus::every(Duration period, Tick tick) {
   periodics_.push_back({.period = period, .tick = std::move(tick)});

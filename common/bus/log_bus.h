@@ -25,6 +25,7 @@ class LogBus : public Bus {
   LogBus(const std::vector<LogEvent>& input, std::vector<LogEvent>& output);
 
   void every(Duration period, Tick tick) override;
+  void post(std::function<void()> work) override;
   Time now() const override { return now_; }
   void run() override;
   bool is_replay() const override { return true; }

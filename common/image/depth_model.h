@@ -15,8 +15,8 @@
 /// varints, seven bits a byte, the lowest first); the lanes' words.
 ///
 /// An image is four bands of rows, each coded by a lane of its own so that a processor can work on
-/// several at once. A band is coded row by row as if the row above it were all holes. Every pixel is
-/// one token under a context made of its neighbours
+/// several at once. A band is coded row by row as if the row above it were all holes. Every pixel
+/// is one token under a context made of its neighbours
 ///
 ///     ul  u  ur
 ///      l  x

@@ -64,6 +64,37 @@ channel_health_t example() {
 }
 
 template <>
+device_status_t example() {
+  return {.utime = kUtime,
+          .seq = 8,
+          .state = device_status_t::STATE_LOST,
+          .backend = "openni2 2.2.0.33",
+          .device_name = "Roomwise Simulated Kinect",
+          .device_uri = "roomwise-sim:///run/kinect",
+          .device_serial = "sim-1",
+          .depth_width_px = 640,
+          .depth_height_px = 480,
+          .color_width_px = 320,
+          .color_height_px = 240,
+          .registration_asked = 1,
+          .registration_in_force = 0,
+          .mirrored_by_device = 1,
+          .frame_rate_hz = 29.5,
+          .encode_mean_s = 0.0035,
+          .encode_max_s = 0.009,
+          .frames_published = 1001,
+          .frames_dropped = 1002,
+          .depth_unpaired = 1003,
+          .color_unpaired = 1004,
+          .frames_malformed = 1005,
+          .device_losses = 1006,
+          .reconnects = 1007,
+          .clock_restarts = 1008,
+          .clock_offset_us = kUtime - 5,
+          .last_error = "went away"};
+}
+
+template <>
 health_t example() {
   return {.utime = kUtime,
           .seq = 7,

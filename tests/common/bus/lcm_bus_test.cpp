@@ -52,6 +52,30 @@ TEST(LcmBus, TicksWithNominalTimes) {
   EXPECT_TRUE(std::is_sorted(ticks.begin(), ticks.end()));
 }
 
+TEST(LcmBus, PostedWorkRunsInOrderOnTheThreadInRun) {
+  LcmBus bus("memq://");
+  std::vector<int> done;
+  std::thread poster([&] {
+    for (int i = 0; i < 100; ++i) {
+      bus.post([&, i] {
+        EXPECT_NE(std::this_thread::get_id(), poster.get_id());
+        done.push_back(i);
+        if (i == 99) bus.stop();
+      });
+    }
+  });
+  bus.run();
+  poster.join();
+  ASSERT_EQ(done.size(), 100U);
+  EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+}
+
+TEST(LcmBus, PostedWorkMayPostMore) {
+  LcmBus bus("memq://");
+  bus.post([&] { bus.post([&] { bus.stop(); }); });
+  bus.run();
+}
+
 TEST(LcmBus, StopsFromAnotherThread) {
   LcmBus bus("memq://");
   std::thread stopper([&] {

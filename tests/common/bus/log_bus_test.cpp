@@ -46,6 +46,10 @@ TEST_F(LogBusTest, HandsOutMessagesInOrderAtTheirTime) {
   EXPECT_EQ(seen, (std::vector<std::int64_t>{10, 20}));
 }
 
+TEST_F(LogBusTest, RefusesWorkOfOtherThreads) {
+  EXPECT_THROW(bus_.post([] {}), std::logic_error);
+}
+
 TEST_F(LogBusTest, NumbersAndStampsWhatItPublishes) {
   add_pose(1000, 1);
   bus_.subscribe(channels::kPose, [&](const pose_t&) {

@@ -1,0 +1,61 @@
+#pragma once
+#include <OpenNI.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/kinect_pub/support/made_frames.h"
+
+namespace roomwise::simulator {
+
+inline std::string uri_of(const std::filesystem::path& door) {
+  return "roomwise-sim://" + door.string();
+}
+
+/// A device with both streams, as a client of OpenNI2 sees it. Streams go before their device.
+struct OpenedCamera {
+  explicit OpenedCamera(const std::string& uri) {
+    EXPECT_EQ(device.open(uri.c_str()), openni::STATUS_OK) << openni::OpenNI::getExtendedError();
+    EXPECT_EQ(depth.create(device, openni::SENSOR_DEPTH), openni::STATUS_OK);
+    EXPECT_EQ(color.create(device, openni::SENSOR_COLOR), openni::STATUS_OK);
+  }
+  OpenedCamera(const OpenedCamera&) = delete;
+  OpenedCamera& operator=(const OpenedCamera&) = delete;
+  ~OpenedCamera() {
+    depth.destroy();
+    color.destroy();
+    device.close();
+  }
+  void start() {
+    EXPECT_EQ(depth.start(), openni::STATUS_OK);
+    EXPECT_EQ(color.start(), openni::STATUS_OK);
+  }
+  void mirror(bool on) {
+    EXPECT_EQ(depth.setMirroringEnabled(on), openni::STATUS_OK);
+    EXPECT_EQ(color.setMirroringEnabled(on), openni::STATUS_OK);
+  }
+  openni::Device device;
+  openni::VideoStream depth;
+  openni::VideoStream color;
+};
+
+/// The next image of `stream`; invalid if none comes within `patience_ms`.
+inline openni::VideoFrameRef next_image(openni::VideoStream& stream, int patience_ms = 5000) {
+  openni::VideoStream* streams[] = {&stream};
+  int ready = 0;
+  openni::VideoFrameRef image;
+  if (openni::OpenNI::waitForAnyStream(streams, 1, &ready, patience_ms) == openni::STATUS_OK) {
+    stream.readFrame(&image);
+  }
+  return image;
+}
+
+/// Pixels of an image without gaps.
+template <class Pixel>
+std::vector<Pixel> pixels_of(const openni::VideoFrameRef& image) {
+  const auto* pixels = static_cast<const Pixel*>(image.getData());
+  return {pixels, pixels + image.getDataSize() / static_cast<int>(sizeof(Pixel))};
+}
+
+}  // namespace roomwise::simulator
