@@ -29,4 +29,17 @@ struct GroundPlan {
   std::vector<PlanHole> holes;
 };
 
+struct Scene;
+
+/// Height of the robot's body: what hangs higher than this passes over it.
+inline constexpr double kRobotHeight_m = 0.12;
+
+/// What stands on the floor of `scene` within `height_m` above it, walkers where they are at `t_s`.
+/// Walkers come last among the discs, in their order in the scene.
+GroundPlan ground_plan(const Scene& scene, double t_s, double height_m = kRobotHeight_m);
+
+/// Distance from `p_m` to the nearest wall, disc or hole; negative inside a disc or a hole.
+/// Infinite in an empty plan.
+double clearance_m(const GroundPlan& plan, const Eigen::Vector2d& p_m);
+
 }  // namespace roomwise::simulator

@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/geometry/pose2.h"
@@ -37,6 +39,27 @@ struct Mesh {
   SurfaceClass surface_class = SurfaceClass::kObstacle;
 };
 
+/// The plan of an upright convex solid: a box, a wall between two doors, a step. World frame.
+struct Block {
+  std::vector<Eigen::Vector2d> corners_m;  ///< counter-clockwise
+  double low_m = 0.0;                      ///< underside above the floor
+  double high_m = 0.0;
+  bool has_landmarks = true;  ///< its upright edges can be told from what is behind them
+};
+
+/// The plan of an upright cylinder. World frame.
+struct Column {
+  Eigen::Vector2d center_m;
+  double radius_m = 0.0;
+  double low_m = 0.0;
+  double high_m = 0.0;
+};
+
+/// A convex region without floor at z = 0, corners counter-clockwise. World frame.
+struct Pit {
+  std::vector<Eigen::Vector2d> corners_m;
+};
+
 /// Something that moves along a closed way at constant speed, upright: a walking person.
 struct Walker {
   std::string name;
@@ -62,6 +85,22 @@ struct SceneLandmark {
   double high_m = 0.0;
 };
 
+/// Where the camera sits on the robot: looking forward, turned left by yaw and then down by pitch.
+struct CameraMount {
+  double x_m = 0.0;  ///< robot frame
+  double y_m = 0.0;
+  double z_m = 0.40;
+  double yaw_rad = 0.0;
+  double pitch_down_rad = 0.0;
+};
+
+/// A way for the robot: from Scene::start over the corners back to the start, so many times.
+struct Path {
+  std::string name;
+  std::vector<Eigen::Vector2d> corners_m;  ///< without the start, world frame
+  int rounds = 1;
+};
+
 /// A world at rest but for its walkers: what the renderer, the ground plan and TRUTH are made from.
 struct Scene {
   std::string name;
@@ -71,11 +110,22 @@ struct Scene {
   std::vector<Lamp> lamps;
   double ambient = 0.3;     ///< light from everywhere, 0..1
   double lamp_level = 1.0;  ///< scales lamps and ambient; 0.05 is a dark room
+  std::vector<Block> blocks;     ///< plans of the solids among `meshes`
+  std::vector<Column> columns;
+  std::vector<Pit> pits;
   std::vector<SceneLandmark> landmarks;
   Pose2 start;  ///< robot at time 0
+  CameraMount camera;
+  std::vector<Path> paths;
 };
 
 /// Pose of a walker in the world at `t_s` after the start: heading along its way.
 Pose2 walker_pose(const Walker& walker, double t_s);
+
+/// Pose of the camera frame (x right, y down, z forward) in the robot frame.
+Eigen::Isometry3d T_robot_camera(const CameraMount& mount);
+
+/// The path called `name`, or nullptr.
+const Path* find_path(const Scene& scene, std::string_view name);
 
 }  // namespace roomwise::simulator
