@@ -44,8 +44,7 @@ Eigen::Isometry3d T_robot_camera(const CameraMount& mount) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() << mount.x_m, mount.y_m, mount.z_m;
   T.linear() = Eigen::AngleAxisd(mount.yaw_rad, Eigen::Vector3d::UnitZ()) *
-               Eigen::AngleAxisd(mount.pitch_down_rad, Eigen::Vector3d::UnitY()) *
-               R_forward_camera;
+               Eigen::AngleAxisd(mount.pitch_down_rad, Eigen::Vector3d::UnitY()) * R_forward_camera;
   return T;
 }
 

@@ -108,9 +108,9 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Walker> walkers;
   std::vector<Lamp> lamps;
-  double ambient = 0.3;     ///< light from everywhere, 0..1
-  double lamp_level = 1.0;  ///< scales lamps and ambient; 0.05 is a dark room
-  std::vector<Block> blocks;     ///< plans of the solids among `meshes`
+  double ambient = 0.3;       ///< light from everywhere, 0..1
+  double lamp_level = 1.0;    ///< scales lamps and ambient; 0.05 is a dark room
+  std::vector<Block> blocks;  ///< plans of the solids among `meshes`
   std::vector<Column> columns;
   std::vector<Pit> pits;
   std::vector<SceneLandmark> landmarks;

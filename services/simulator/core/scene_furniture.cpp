@@ -5,7 +5,8 @@
 namespace roomwise::simulator {
 namespace {
 
-/// A box standing on z = low: centre of its plan, sizes along x and y, then where it begins and ends.
+/// A box standing on z = low: centre of its plan, sizes along x and y, then where it begins and
+/// ends.
 Solid block_at(double x_m, double y_m, double along_x_m, double along_y_m, double low_m,
                double high_m) {
   return box({x_m - along_x_m / 2, y_m - along_y_m / 2, low_m},
@@ -58,8 +59,8 @@ Solid table(const Eigen::Vector3d& size_m, double top_thickness_m, double leg_m)
 
 Solid chair(const Eigen::Vector3d& size_m, double leg_m) {
   Solid solid = table({size_m.x(), size_m.y(), size_m.z() / 2}, leg_m, leg_m);
-  append(solid, block_at((leg_m - size_m.x()) / 2, 0.0, leg_m, size_m.y(), size_m.z() / 2,
-                         size_m.z()));
+  append(solid,
+         block_at((leg_m - size_m.x()) / 2, 0.0, leg_m, size_m.y(), size_m.z() / 2, size_m.z()));
   return solid;
 }
 
@@ -68,11 +69,11 @@ Solid sofa(const Eigen::Vector3d& size_m) {
   const double back_m = std::min(0.22, size_m.x() / 3);
   const double seat_width_m = size_m.y() - 2 * arm_m;
   Solid solid = block_at((back_m - size_m.x()) / 2, 0.0, back_m, seat_width_m, 0.0, size_m.z());
-  append(solid, block_at(back_m / 2, 0.0, size_m.x() - back_m, seat_width_m, 0.0,
-                         0.5 * size_m.z()));
+  append(solid,
+         block_at(back_m / 2, 0.0, size_m.x() - back_m, seat_width_m, 0.0, 0.5 * size_m.z()));
   for (const double y : {-1.0, 1.0}) {
-    append(solid, block_at(0.0, y * (size_m.y() - arm_m) / 2, size_m.x(), arm_m, 0.0,
-                           0.75 * size_m.z()));
+    append(solid,
+           block_at(0.0, y * (size_m.y() - arm_m) / 2, size_m.x(), arm_m, 0.0, 0.75 * size_m.z()));
   }
   return solid;
 }
@@ -88,8 +89,8 @@ Solid shelf(const Eigen::Vector3d& size_m, int boards) {
   append(solid, block_at((kBoard_m - size_m.x()) / 2, 0.0, kBoard_m, inner_m, 0.0, size_m.z()));
   for (int i = 0; i < boards; ++i) {
     const double low_m = i * (size_m.z() - kBoard_m) / (boards - 1);
-    append(solid, block_at(kBoard_m / 2, 0.0, size_m.x() - kBoard_m, inner_m, low_m,
-                           low_m + kBoard_m));
+    append(solid,
+           block_at(kBoard_m / 2, 0.0, size_m.x() - kBoard_m, inner_m, low_m, low_m + kBoard_m));
   }
   return solid;
 }

@@ -123,12 +123,10 @@ Solid box(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {
       add_box_face(solid.mesh, low_m, high_m, axis, upper);
     }
   }
-  solid.blocks.push_back({{low_m.head<2>(),
-                           {high_m.x(), low_m.y()},
-                           high_m.head<2>(),
-                           {low_m.x(), high_m.y()}},
-                          low_m.z(),
-                          high_m.z()});
+  solid.blocks.push_back(
+      {{low_m.head<2>(), {high_m.x(), low_m.y()}, high_m.head<2>(), {low_m.x(), high_m.y()}},
+       low_m.z(),
+       high_m.z()});
   return solid;
 }
 

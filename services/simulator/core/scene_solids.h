@@ -14,8 +14,8 @@ struct Solid {
   std::vector<Column> columns;
 };
 
-/// An axis-aligned box from `low_m` to `high_m`: closed, normals outward. Texture coordinates are the
-/// box's own two coordinates along each face, so that boxes side by side share one pattern.
+/// An axis-aligned box from `low_m` to `high_m`: closed, normals outward. Texture coordinates are
+/// the box's own two coordinates along each face, so that boxes side by side share one pattern.
 Solid box(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);
 
 /// An upright cylinder around the z axis: closed, normals outward, `sides` >= 3 flat faces whose
