@@ -1,0 +1,136 @@
+#include "services/simulator/core/kinect/depth_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/multiversion.h"
+#include "services/simulator/core/kinect/pixel_hash.h"
+
+namespace roomwise::simulator {
+namespace {
+
+constexpr int kMatchingWidth_px = 640;  // of the grid that disparity is measured on
+constexpr int kMatchingWindow_px = 9;
+constexpr int kBlindRight_px = 8;    // columns at the right border that a Kinect never measures
+constexpr int kPatch_px = 4;         // side of what random dropouts take
+constexpr float kEdgeQuanta = 8.0F;  // from here on a difference is an edge to window matching
+/// How the light needed differs from place to place, per unit of noise: ragged rims of dark areas.
+constexpr float kLightSpread = 0.35F;
+
+enum Purpose : std::uint32_t { kNoise, kPattern, kRagged, kDropout };
+
+struct RowLimits {
+  float quanta_least;
+  float quanta_most;
+  float noise_quanta;
+  float light_needed;
+};
+
+/// Adds noise to `row` (quanta, 0 is a hole), blanks what cannot be read, and rounds.
+ROOMWISE_MULTIVERSION
+void measure_row(const float* row, const float* light, const float* noise, const float* pattern,
+                 const RowLimits& limits, int width, std::uint16_t* quanta) {
+  for (int u = 0; u < width; ++u) {
+    const float measured = row[u] + limits.noise_quanta * noise[u] + pattern[u];
+    const float needed = limits.light_needed * (1.0F + kLightSpread * noise[u]);
+    const int is_read =
+        static_cast<int>(row[u] > 0.0F) & static_cast<int>(measured >= limits.quanta_least) &
+        static_cast<int>(measured <= limits.quanta_most) & static_cast<int>(light[u] >= needed);
+    const float whole = measured < 0.0F ? 0.0F : measured > 1e4F ? 1e4F : measured + 0.5F;
+    quanta[u] = static_cast<std::uint16_t>(is_read * static_cast<int>(whole));
+  }
+}
+
+}  // namespace
+
+DepthSensor::DepthSensor(const DepthSensorParams& params, std::uint32_t seed)
+    : params_(params), seed_(seed), depth_mm_(kQuantaMax + 1, 0) {
+  for (std::size_t i = 1; i < depth_mm_.size(); ++i) {
+    const double mm = std::round(1000.0 * params.quanta_m() / static_cast<double>(i));
+    depth_mm_[i] = static_cast<std::uint16_t>(mm <= 65535.0 ? mm : 0.0);
+  }
+}
+
+void DepthSensor::resize(const KinectView& view) {
+  if (view.width_px == width_px_ && view.height_px == height_px_) return;
+  width_px_ = view.width_px;
+  height_px_ = view.height_px;
+  const double scale = static_cast<double>(width_px_) / kMatchingWidth_px;
+  const int window_px =
+      std::clamp(static_cast<int>(std::lround(kMatchingWindow_px * scale)), 1, 64);
+  shadow_.resize(width_px_);
+  ragged_.resize(width_px_, height_px_, static_cast<int>(std::lround(params_.ragged_px * scale)));
+  noise_.emplace(width_px_, window_px);
+  for (auto* image : {&disparity_, &pattern_}) image->assign(view.size(), 0.0F);
+  quanta_.assign(view.size(), 0);
+  row_.assign(static_cast<std::size_t>(width_px_), 0.0F);
+  fill_pattern();
+}
+
+void DepthSensor::fill_pattern() {
+  const auto sigma = static_cast<float>(params_.pattern_quanta);
+  noise_->start(stream_key(seed_, 0, kPattern));
+  for (auto out = pattern_.begin(); out != pattern_.end(); out += width_px_) {
+    const float* row = noise_->next_row();
+    std::transform(row, row + width_px_, out, [sigma](float noise) { return sigma * noise; });
+  }
+}
+
+void DepthSensor::cast_shadow(const KinectView& view, double projector_m) {
+  const auto quanta_m = static_cast<float>(params_.quanta_m());
+  std::transform(view.inverse_depth_per_m.begin(), view.inverse_depth_per_m.end(),
+                 disparity_.begin(), [quanta_m](float inverse) { return quanta_m * inverse; });
+  const double px_per_quantum =
+      projector_m / params_.baseline_m / 8.0 * width_px_ / kMatchingWidth_px;
+  const auto width = static_cast<std::size_t>(width_px_);
+  for (std::size_t begin = 0; begin < disparity_.size(); begin += width) {
+    shadow_.apply(std::span(disparity_).subspan(begin, width), static_cast<float>(px_per_quantum));
+  }
+}
+
+void DepthSensor::drop_patches(int v, std::uint32_t key) {
+  const auto limit =
+      static_cast<std::uint32_t>(std::min(4294967295.0, params_.dropout_ratio * 4294967296.0));
+  const auto patches = static_cast<std::uint32_t>(width_px_ / kPatch_px + 1);
+  const std::uint32_t first = key + static_cast<std::uint32_t>(v / kPatch_px) * patches;
+  const auto row = quanta_.begin() + static_cast<std::ptrdiff_t>(v) * width_px_;
+  for (std::uint32_t i = 0; i < patches; ++i) {
+    if (hash32(first + i) >= limit) continue;
+    const int begin = static_cast<int>(i) * kPatch_px;
+    const int end = std::min(begin + kPatch_px, width_px_);
+    if (begin < end) std::fill(row + begin, row + end, std::uint16_t{0});
+  }
+}
+
+void DepthSensor::expose_row(const KinectView& view, int v, const Keys& keys) {
+  const double quanta_m = params_.quanta_m();
+  const RowLimits limits{
+      .quanta_least = static_cast<float>(std::max(1.0, quanta_m / params_.far_m)),
+      .quanta_most = static_cast<float>(std::min(kQuantaMax - 1.0, quanta_m / params_.near_m)),
+      .noise_quanta = static_cast<float>(params_.noise_quanta),
+      .light_needed = static_cast<float>(params_.light_needed_ratio)};
+  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(v) * width_px_;
+  ragged_.copy_row(disparity_, v, kEdgeQuanta, keys.ragged, row_.data());
+  measure_row(row_.data(), view.infrared_ratio.data() + begin, noise_->next_row(),
+              pattern_.data() + begin, limits, width_px_, quanta_.data() + begin);
+  drop_patches(v, keys.dropout);
+  const int blind_px = kBlindRight_px * width_px_ / kMatchingWidth_px;
+  std::fill_n(quanta_.begin() + begin + width_px_ - blind_px, blind_px, std::uint16_t{0});
+}
+
+void DepthSensor::expose(const KinectView& view, double projector_m, std::int64_t frame,
+                         DepthImage& out) {
+  resize(view);
+  cast_shadow(view, projector_m);
+  const Keys keys{stream_key(seed_, frame, kRagged), stream_key(seed_, frame, kDropout)};
+  noise_->start(stream_key(seed_, frame, kNoise));
+  for (int v = 0; v < height_px_; ++v) expose_row(view, v, keys);
+  out.width_px = width_px_;
+  out.height_px = height_px_;
+  out.unit_m = 0.001;
+  out.steps.resize(quanta_.size());
+  std::transform(quanta_.begin(), quanta_.end(), out.steps.begin(),
+                 [this](std::uint16_t quanta) { return depth_mm_[quanta]; });
+}
+
+}  // namespace roomwise::simulator

@@ -1,0 +1,180 @@
+#include "services/simulator/render/kinect_renderer.h"
+
+#include <algorithm>
+#include <array>
+
+namespace roomwise::simulator {
+namespace {
+
+/// How often a ray may go on: through both faces of two panes, or through one and off a mirror.
+constexpr std::size_t kLevels = 4;
+constexpr float kMirrorWins = 0.5F;  // from this share on depth is that of the mirror world
+/// A ray that goes on starts that much behind the surface, lest it meet it again.
+constexpr float kSkip_m = 1e-3F;
+
+Eigen::Isometry3d upright(const Pose2& pose) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::AngleAxisd(pose.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T.translation() = Eigen::Vector3d(pose.x_m, pose.y_m, 0.0);
+  return T;
+}
+
+/// Calls visit(begin, end, triangle) for each stretch of the same triangle in [begin, end).
+template <class Visit>
+void for_each_run(const std::uint32_t* triangles, int begin, int end, Visit&& visit) {
+  while (begin < end) {
+    int last = begin + 1;
+    while (last < end && triangles[last] == triangles[begin]) ++last;
+    visit(begin, last, triangles[begin]);
+    begin = last;
+  }
+}
+
+void blend(float* own, const float* seen, float own_share, float seen_share, const Run& run) {
+  for (int u = run.begin; u < run.end; ++u) own[u] = own_share * own[u] + seen_share * seen[u];
+}
+
+/// What window glass and mirrors make of what is seen through or in them.
+void pass_on(const Material& material, const Run& run, const ViewRow& seen, const ViewRow& own) {
+  const float mirror = material.see_through ? 1.0F : material.mirror;
+  const std::array<float, 3> share =
+      material.see_through ? material.color : std::array<float, 3>{mirror, mirror, mirror};
+  blend(own.red, seen.red, 1.0F - mirror, share[0], run);
+  blend(own.green, seen.green, 1.0F - mirror, share[1], run);
+  blend(own.blue, seen.blue, 1.0F - mirror, share[2], run);
+  if (material.see_through) {
+    blend(own.inverse_depth_per_m, own.inverse_depth_per_m, 0.0F, 0.0F, run);
+    blend(own.infrared_ratio, own.infrared_ratio, 0.0F, 0.0F, run);
+  } else if (mirror > kMirrorWins) {
+    blend(own.inverse_depth_per_m, seen.inverse_depth_per_m, 0.0F, 1.0F, run);
+    blend(own.infrared_ratio, seen.infrared_ratio, 0.0F, mirror * mirror, run);
+  } else {
+    blend(own.infrared_ratio, own.infrared_ratio, 0.0F, (1.0F - mirror) * (1.0F - mirror), run);
+  }
+}
+
+ViewRow row_of(KinectView& view, int v) {
+  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(v) * view.width_px;
+  return {view.inverse_depth_per_m.data() + begin,
+          view.infrared_ratio.data() + begin,
+          view.cos_incidence.data() + begin,
+          view.red.data() + begin,
+          view.green.data() + begin,
+          view.blue.data() + begin};
+}
+
+}  // namespace
+
+PinholeCamera kinect_camera(double focal_px, int width_px, int height_px) {
+  const double f = focal_px * width_px / 640.0;
+  return {.fx_px = f, .fy_px = f, .cx_px = 0.5 * width_px, .cy_px = 0.5 * height_px};
+}
+
+ViewRow KinectRenderer::Level::row() {
+  return {planes[0].data(), planes[1].data(), planes[2].data(),
+          planes[3].data(), planes[4].data(), planes[5].data()};
+}
+
+KinectRenderer::KinectRenderer(const Scene& scene)
+    : scene_(scene), surfaces_(scene), caster_(scene, surfaces_), shading_(scene) {}
+
+void KinectRenderer::make_room(int width_px, int height_px, KinectView& out) {
+  if (out.width_px != width_px || out.height_px != height_px) out.resize(width_px, height_px);
+  triangles_.resize(out.size());
+  if (width_px == width_px_) return;
+  width_px_ = width_px;
+  const auto width = static_cast<std::size_t>(width_px);
+  shading_.resize(width_px);
+  levels_.resize(kLevels);
+  for (Level& level : levels_) {
+    level.triangles.resize(width);
+    level.from_m.resize(width);
+    for (auto& plane : level.planes) plane.resize(width);
+  }
+}
+
+void KinectRenderer::move_walkers(double t_s) {
+  if (scene_.walkers.empty()) return;
+  for (std::size_t i = 0; i < scene_.walkers.size(); ++i) {
+    const Eigen::Isometry3d T_world_walker = upright(walker_pose(scene_.walkers[i], t_s));
+    surfaces_.move_walker(i, T_world_walker);
+    caster_.move_walker(i, T_world_walker);
+  }
+  caster_.commit();
+}
+
+void KinectRenderer::render(const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
+                            double t_s, int width_px, int height_px, KinectView& out) {
+  make_room(width_px, height_px, out);
+  move_walkers(t_s);
+  cast_and_shade(ray_frame(camera, T_world_camera), Wanted::kBoth, out);
+}
+
+void KinectRenderer::render(const Eigen::Isometry3d& T_world_camera, const PinholeCamera& camera,
+                            const Eigen::Isometry3d& T_world_color,
+                            const PinholeCamera& color_camera, double t_s, int width_px,
+                            int height_px, KinectView& out) {
+  make_room(width_px, height_px, out);
+  move_walkers(t_s);
+  cast_and_shade(ray_frame(color_camera, T_world_color), Wanted::kColor, out);
+  cast_and_shade(ray_frame(camera, T_world_camera), Wanted::kDepth, out);
+}
+
+void KinectRenderer::cast_and_shade(const RayFrame& rays, Wanted wanted, KinectView& out) {
+  caster_.cast(rays, out.width_px, out.height_px, triangles_.data());
+  for (int v = 0; v < out.height_px; ++v) {
+    const Run whole{v, 0, out.width_px};
+    const std::uint32_t* triangles =
+        triangles_.data() + static_cast<std::ptrdiff_t>(v) * out.width_px;
+    if (wanted != Wanted::kColor) name_surfaces(whole, triangles, out);
+    shade_row(rays, whole, triangles, wanted, 0, row_of(out, v));
+  }
+}
+
+void KinectRenderer::name_surfaces(const Run& run, const std::uint32_t* triangles,
+                                   KinectView& out) const {
+  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(run.v) * out.width_px;
+  for_each_run(triangles, run.begin, run.end, [&](int begin, int end, std::uint32_t triangle) {
+    const bool is_there = triangle != kNoTriangle;
+    const auto surface_class =
+        is_there ? static_cast<std::uint8_t>(surfaces_[triangle].surface_class) : kNoSurface;
+    const std::uint16_t material = is_there ? surfaces_[triangle].material : kNoMaterial;
+    std::fill_n(out.surface_class.begin() + row + begin, end - begin, surface_class);
+    std::fill_n(out.material.begin() + row + begin, end - begin, material);
+  });
+}
+
+void KinectRenderer::shade_row(const RayFrame& rays, const Run& run, const std::uint32_t* triangles,
+                               Wanted wanted, std::size_t level, const ViewRow& row) {
+  for_each_run(triangles, run.begin, run.end, [&](int begin, int end, std::uint32_t triangle) {
+    shade_run(rays, {run.v, begin, end}, triangle, wanted, level, row);
+  });
+}
+
+void KinectRenderer::shade_run(const RayFrame& rays, const Run& run, std::uint32_t triangle,
+                               Wanted wanted, std::size_t level, const ViewRow& row) {
+  if (triangle == kNoTriangle) return shading_.nothing(run, row);
+  const Surface& surface = surfaces_[triangle];
+  if (!shading_.depth(rays, surface, run, row)) return;
+  if (wanted != Wanted::kDepth) shading_.color(rays, surface, run, row);
+  const Material& material = scene_.materials[surface.material];
+  if (!material.see_through && material.mirror <= 0.0F) return;
+  if (level < kLevels) look_on(rays, run, surface, wanted, level, row);
+}
+
+void KinectRenderer::look_on(const RayFrame& rays, const Run& run, const Surface& surface,
+                             Wanted wanted, std::size_t level, const ViewRow& row) {
+  const Material& material = scene_.materials[surface.material];
+  const RayFrame onward =
+      material.see_through ? rays : reflected(rays, surface.normal, surface.offset_m);
+  Level& next = levels_[level];
+  for (int u = run.begin; u < run.end; ++u) {
+    next.from_m[static_cast<std::size_t>(u)] = 1.0F / row.inverse_depth_per_m[u] + kSkip_m;
+  }
+  caster_.cast_row(onward, run.v, run.begin, run.end, next.from_m.data(), next.triangles.data());
+  const ViewRow seen = next.row();
+  shade_row(onward, run, next.triangles.data(), wanted, level + 1, seen);
+  pass_on(material, run, seen, row);
+}
+
+}  // namespace roomwise::simulator

@@ -1,0 +1,63 @@
+#pragma once
+#include <embree3/rtcore.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "services/simulator/core/scene.h"
+#include "services/simulator/render/ray_frame.h"
+#include "services/simulator/render/surface_table.h"
+
+namespace roomwise::simulator {
+
+/// Number of a triangle that a ray which met nothing is given.
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
+
+/// Finds the triangle each pixel sees, by Embree. Which triangle is all that is taken from it:
+/// whatever else there is to know of a pixel follows from that triangle's plane in closed form.
+class RayCaster {
+ public:
+  /// Throws std::runtime_error if Embree fails. `table` numbers the triangles of `scene`.
+  RayCaster(const Scene& scene, const SurfaceTable& table);
+
+  /// Puts a walker somewhere else; commit() when all are moved.
+  void move_walker(std::size_t walker, const Eigen::Isometry3d& T_world_walker);
+  void commit();
+
+  /// Triangle numbers of a width x height image, row by row.
+  void cast(const RayFrame& rays, int width_px, int height_px, std::uint32_t* triangles) const;
+
+  /// Triangle numbers of pixels [begin, end) of row v, written to triangles[begin..end), not
+  /// looking nearer than from_m[u].
+  void cast_row(const RayFrame& rays, int v, int begin, int end, const float* from_m,
+                std::uint32_t* triangles) const;
+
+ private:
+  template <auto release>
+  struct Released {
+    template <class Handle>
+    void operator()(Handle* handle) const {
+      release(handle);
+    }
+  };
+  using Device = std::unique_ptr<RTCDeviceTy, Released<rtcReleaseDevice>>;
+  using SceneHandle = std::unique_ptr<RTCSceneTy, Released<rtcReleaseScene>>;
+  using Geometry = std::unique_ptr<RTCGeometryTy, Released<rtcReleaseGeometry>>;
+
+  SceneHandle build(const std::vector<Mesh>& meshes) const;
+  void make_instances();
+  void place(std::size_t part, const Eigen::Isometry3d& T_world_part);
+  RTCScene root() const { return whole_ ? whole_.get() : parts_.front().get(); }
+  std::uint32_t triangle(const RTCRayHit16& packet, int lane) const;
+
+  const SurfaceTable& table_;
+  Device device_;
+  std::vector<SceneHandle> parts_;       ///< the world at rest, then one for each walker
+  std::vector<Geometry> instances_;      ///< of parts_, unless nothing moves
+  std::vector<std::size_t> first_mesh_;  ///< of each part, as `table_` numbers meshes
+  SceneHandle whole_;                    ///< of instances_; none if nothing moves
+};
+
+}  // namespace roomwise::simulator

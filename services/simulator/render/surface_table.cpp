@@ -1,0 +1,105 @@
+#include "services/simulator/render/surface_table.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <stdexcept>
+
+namespace roomwise::simulator {
+namespace {
+
+void require(bool holds, const Scene& scene, const char* what) {
+  if (!holds) throw std::runtime_error("scene " + scene.name + ": a mesh has " + what);
+}
+
+void check(const Scene& scene, const Mesh& mesh) {
+  require(mesh.texture_m.size() == mesh.corners_m.size(), scene, "corners without texture");
+  require(mesh.material >= 0 && static_cast<std::size_t>(mesh.material) < scene.materials.size(),
+          scene, "no material");
+  const auto is_finite = [](const auto& vector) { return vector.allFinite(); };
+  require(std::all_of(mesh.corners_m.begin(), mesh.corners_m.end(), is_finite) &&
+              std::all_of(mesh.texture_m.begin(), mesh.texture_m.end(), is_finite),
+          scene, "a corner that is not finite");
+  for (const auto& triangle : mesh.triangles) {
+    const auto largest = *std::max_element(triangle.begin(), triangle.end());
+    require(largest < mesh.corners_m.size(), scene, "a triangle without corner");
+  }
+}
+
+}  // namespace
+
+Surface make_surface(const Eigen::Matrix3d& corners_m,
+                     const Eigen::Matrix<double, 2, 3>& texture_m) {
+  const Eigen::Vector3d a = corners_m.col(1) - corners_m.col(0);
+  const Eigen::Vector3d b = corners_m.col(2) - corners_m.col(0);
+  const Eigen::Vector3d across = a.cross(b);
+  Surface surface;
+  if (across.norm() < 1e-12) return surface;
+  surface.normal = across.normalized();
+  surface.offset_m = surface.normal.dot(corners_m.col(0));
+  // Gradients lie in the plane: g . a and g . b are the coordinate's differences, g . normal is 0.
+  Eigen::Matrix3d rows;
+  rows << a.transpose(), b.transpose(), surface.normal.transpose();
+  const Eigen::Matrix3d inverse = rows.inverse();
+  const auto gradient = [&](int i) -> Eigen::Vector3d {
+    return inverse * Eigen::Vector3d(texture_m(i, 1) - texture_m(i, 0),
+                                     texture_m(i, 2) - texture_m(i, 0), 0.0);
+  };
+  surface.s_gradient = gradient(0);
+  surface.t_gradient = gradient(1);
+  surface.s_at_origin_m = texture_m(0, 0) - surface.s_gradient.dot(corners_m.col(0));
+  surface.t_at_origin_m = texture_m(1, 0) - surface.t_gradient.dot(corners_m.col(0));
+  return surface;
+}
+
+Surface moved(const Surface& surface, const Eigen::Isometry3d& motion) {
+  Surface result = surface;
+  const Eigen::Vector3d shift = motion.translation();
+  result.normal = motion.linear() * surface.normal;
+  result.s_gradient = motion.linear() * surface.s_gradient;
+  result.t_gradient = motion.linear() * surface.t_gradient;
+  result.offset_m += result.normal.dot(shift);
+  result.s_at_origin_m -= result.s_gradient.dot(shift);
+  result.t_at_origin_m -= result.t_gradient.dot(shift);
+  return result;
+}
+
+SurfaceTable::SurfaceTable(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) add(scene, mesh);
+  at_rest_ = surfaces_.size();
+  for (const Walker& walker : scene.walkers) {
+    walker_meshes_.push_back(first_of_mesh_.size());
+    for (const Mesh& mesh : walker.meshes) add(scene, mesh);
+  }
+  walker_meshes_.push_back(first_of_mesh_.size());
+  first_of_mesh_.push_back(static_cast<std::uint32_t>(surfaces_.size()));
+  walkers_at_origin_.assign(surfaces_.begin() + static_cast<std::ptrdiff_t>(at_rest_),
+                            surfaces_.end());
+}
+
+void SurfaceTable::add(const Scene& scene, const Mesh& mesh) {
+  check(scene, mesh);
+  first_of_mesh_.push_back(static_cast<std::uint32_t>(surfaces_.size()));
+  for (const auto& triangle : mesh.triangles) {
+    Eigen::Matrix3d corners_m;
+    Eigen::Matrix<double, 2, 3> texture_m;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const std::uint32_t corner = triangle[static_cast<std::size_t>(i)];
+      corners_m.col(i) = mesh.corners_m[corner].cast<double>();
+      texture_m.col(i) = mesh.texture_m[corner].cast<double>();
+    }
+    Surface surface = make_surface(corners_m, texture_m);
+    surface.material = static_cast<std::uint16_t>(mesh.material);
+    surface.surface_class = mesh.surface_class;
+    surfaces_.push_back(surface);
+  }
+}
+
+void SurfaceTable::move_walker(std::size_t walker, const Eigen::Isometry3d& T_world_walker) {
+  const std::size_t begin = first_of_mesh_[walker_meshes_[walker]];
+  const std::size_t end = first_of_mesh_[walker_meshes_[walker + 1]];
+  for (std::size_t i = begin; i < end; ++i) {
+    surfaces_[i] = moved(walkers_at_origin_[i - at_rest_], T_world_walker);
+  }
+}
+
+}  // namespace roomwise::simulator
