@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <thread>
@@ -58,6 +59,12 @@ class SimulatorProgram : public ::testing::Test {
     }
     ASSERT_TRUE(std::filesystem::exists(port)) << process->output();
   }
+  /// The empty world with more in it, above.
+  void write_scenario(const std::string& more) const {
+    std::ifstream empty(std::string(ROOMWISE_SOURCE_DIR) +
+                        "/services/simulator/scenarios/empty.toml");
+    std::ofstream(scenario) << more << empty.rdbuf();
+  }
   int stop(int signal = SIGINT) {
     process->send_signal(signal);
     return process->wait();
@@ -87,6 +94,7 @@ class SimulatorProgram : public ::testing::Test {
 
   ScratchFolder folder;
   std::filesystem::path port = folder.path() / "create";
+  std::filesystem::path scenario = folder.path() / "own.toml";
   std::unique_ptr<ChildProcess> process;
 };
 
@@ -201,8 +209,23 @@ TEST_F(SimulatorProgram, FaultsOfTheCommandLineAllHappen) {
   EXPECT_EQ(count_frames(stream, Sum::kAny) - count_frames(stream), 3U);
 }
 
+TEST_F(SimulatorProgram, FaultsOfTheScenarioHappen) {
+  write_scenario("[[fault]]\nname = 'bump'\nat_s = 0.5\nfor_s = 60\n");
+  start({"--scenario", scenario.string()});
+  const HostPort host(port);
+  ASSERT_TRUE(host.write({128, 148, 1, 7}));
+  const auto bumped = [](const Bytes& bytes) {
+    const Bytes frame = {19, 2, 7, 3, 225};
+    return std::search(bytes.begin(), bytes.end(), frame.begin(), frame.end()) != bytes.end();
+  };
+  EXPECT_TRUE(bumped(host.read_until(bumped)));
+}
+
 TEST_F(SimulatorProgram, SaysWhatItCannotStartWith) {
   std::string said;
+  write_scenario("[[fault]]\nname = 'melt'\nat_s = 0.5\n");
+  EXPECT_EQ(run_to_failure({"--scenario", scenario.string()}, said), 1);
+  EXPECT_NE(said.find("own.toml:1: fault"), std::string::npos) << said;
   EXPECT_EQ(run_to_failure({"--scenario", "nowhere"}, said), 1);
   EXPECT_NE(said.find("nowhere"), std::string::npos) << said;
   EXPECT_EQ(run_to_failure({"--fault", "at_s=1,kind=melt"}, said), 1);

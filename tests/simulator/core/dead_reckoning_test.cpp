@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kBase_m = 0.235;
-constexpr double kStep_s = 0.001;
+constexpr double kWheelBase_m = 0.235;
+constexpr double kTimeStep_s = 0.001;
 constexpr int kStepsPerReading = 15;
 
 /// What a host makes of the encoders with the nominal base and wheels.
@@ -30,7 +30,7 @@ class DeadReckoning {
     };
     const double left_m = delta_m(ticks_.left, ticks.left);
     const double right_m = delta_m(ticks_.right, ticks.right);
-    const double turn_rad = (right_m - left_m) / kBase_m;
+    const double turn_rad = (right_m - left_m) / kWheelBase_m;
     const double mid_rad = pose_.heading_rad + turn_rad / 2.0;
     const double forward_m = (left_m + right_m) / 2.0;
     pose_ = {pose_.x_m + forward_m * std::cos(mid_rad), pose_.y_m + forward_m * std::sin(mid_rad),
@@ -57,13 +57,13 @@ LeftRight<double> towards(const Pose2& pose, const Vector2d& goal_m) {
 double error_after_round_m(const std::vector<Vector2d>& corners_m, unsigned seed) {
   const Vector2d first = corners_m[1] - corners_m[0];
   const Pose2 start{corners_m[0].x(), corners_m[0].y(), std::atan2(first.y(), first.x())};
-  RobotMotion robot(RobotParams{}, kBase_m, start, std::mt19937_64(seed));
+  RobotMotion robot(RobotParams{}, kWheelBase_m, start, std::mt19937_64(seed));
   DeadReckoning reckoned(start);
   for (std::size_t i = 1; i <= corners_m.size(); ++i) {
     const Vector2d goal_m = corners_m[i % corners_m.size()];
     while ((goal_m - robot.pose().position_m()).norm() > 0.05) {
       const LeftRight<double> command = towards(robot.pose(), goal_m);
-      for (int k = 0; k < kStepsPerReading; ++k) robot.step({}, command, kStep_s);
+      for (int k = 0; k < kStepsPerReading; ++k) robot.step({}, command, kTimeStep_s);
       reckoned.read(robot.wheels());
     }
   }

@@ -6,13 +6,13 @@
 namespace roomwise::simulator {
 namespace {
 
-constexpr int kBitsPerByte = 10;
+constexpr int kBitTimesPerByte = 10;
 
 /// Level of the line `bits` bit times after the start of `byte`: start bit low, data with the
 /// lowest first, stop bit and rest high.
 bool level_at(std::uint8_t byte, double bits) {
   const int bit = static_cast<int>(std::floor(bits));
-  if (bit < 0 || bit >= kBitsPerByte - 1) return true;
+  if (bit < 0 || bit >= kBitTimesPerByte - 1) return true;
   return bit > 0 && (byte >> (bit - 1) & 1) != 0;
 }
 
@@ -27,7 +27,7 @@ void SerialLine::send(std::span<const std::uint8_t> bytes) {
 
 void SerialLine::advance(Duration now, int baud, std::vector<std::uint8_t>& arrived) {
   now_ = now;
-  const std::chrono::nanoseconds per_byte(kBitsPerByte * 1'000'000'000LL / baud);
+  const std::chrono::nanoseconds per_byte(kBitTimesPerByte * 1'000'000'000LL / baud);
   while (!waiting_.empty() && busy_until_ + per_byte <= now_) {
     busy_until_ += per_byte;
     arrived.push_back(waiting_.front());
@@ -42,14 +42,14 @@ std::vector<std::uint8_t> received_at(std::span<const std::uint8_t> bytes, int f
   std::vector<std::uint8_t> received;
   for (const std::uint8_t byte : bytes) {
     double start = 0.0;
-    while (start < kBitsPerByte) {
+    while (start < kBitTimesPerByte) {
       unsigned value = 0;
       for (int bit = 0; bit < 8; ++bit) {
         if (level_at(byte, start + (bit + 1.5) * step)) value |= 1U << bit;
       }
       received.push_back(static_cast<std::uint8_t>(value));
-      start += (kBitsPerByte - 0.5) * step;
-      while (start < kBitsPerByte && level_at(byte, start)) start += step / 2.0;
+      start += (kBitTimesPerByte - 0.5) * step;
+      while (start < kBitTimesPerByte && level_at(byte, start)) start += step / 2.0;
     }
   }
   return received;
