@@ -1,7 +1,6 @@
 #include "common/service/options.h"
 
-#include <CLI/CLI.hpp>
-#include <map>
+#include "common/service/param_options.h"
 
 namespace roomwise {
 
@@ -20,13 +19,7 @@ ParsedOptions parse_options(std::string_view service, int argc, const char* cons
   auto* record = app.add_option("--record", options.record_path,
                                 "LCM log to write: the input with what this service publishes")
                      ->needs(replay);
-  std::map<std::string, std::vector<std::string>> texts;
-  for (const ParamField& field : params.fields()) {
-    app.add_option("--" + field.name, texts[field.name])
-        ->group("Parameters")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  }
+  const ParamOptions param_options(app, params);
   app.add_flag("--outputs-only", options.outputs_only, "leave the input out of the record")
       ->needs(record);
   try {
@@ -34,9 +27,7 @@ ParsedOptions parse_options(std::string_view service, int argc, const char* cons
   } catch (const CLI::ParseError& error) {
     return {.options = std::nullopt, .exit_status = app.exit(error)};
   }
-  for (const ParamField& field : params.fields()) {
-    if (!texts[field.name].empty()) options.settings.push_back({field, texts[field.name]});
-  }
+  options.settings = param_options.settings();
   return {.options = options};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/params/params.h"
+#include "common/service/param_setting.h"
 
 namespace roomwise {
 
@@ -17,12 +18,7 @@ struct Options {
   std::filesystem::path record_path;  ///< empty: nothing is recorded; replay only
   bool outputs_only = false;          ///< record what the service publishes without its input
 
-  /// What the command line says of parameters, one entry for each it names.
-  struct Setting {
-    ParamField field;
-    std::vector<std::string> texts;
-  };
-  std::vector<Setting> settings;
+  std::vector<ParamSetting> settings;  ///< what the command line says of parameters
 
   bool is_replay() const { return !replay_path.empty(); }
 };

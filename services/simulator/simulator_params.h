@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "services/simulator/core/create/open_interface_params.h"
+#include "services/simulator/core/kinect/kinect_params.h"
 #include "services/simulator/core/robot_params.h"
 
 namespace roomwise::simulator {
@@ -14,10 +15,15 @@ struct SimulatorParams {
   /// What goes wrong besides what the scenario says, as core/create/fault.h reads it.
   std::vector<std::string> fault;
   std::string create_port;     ///< link to the serial port; empty: /tmp/roomwise-UID/create
+  std::string kinect_door;     ///< where the Kinect's frames go; empty: what its driver looks for
   double battery_ratio = 0.9;  ///< charge at the start
   double catch_up_s = 60.0;    ///< how late the world may be and still live through every step
   RobotParams robot;
   OpenInterfaceParams interface;
+  std::string camera_size = "640x480";  ///< of recorded drives; live, the camera's reader chooses
+  bool camera_registered = true;        ///< the same
+  DepthSensorParams depth;
+  ColorSensorParams color;
 
   template <class Field>
   void visit_fields(Field&& field) {
@@ -25,6 +31,7 @@ struct SimulatorParams {
     field("seed", seed, 0, 2147483647);
     field("fault", fault);
     field("create_port", create_port);
+    field("kinect_door", kinect_door);
     field("battery_ratio", battery_ratio, 0.0, 1.0);
     field("catch_up_s", catch_up_s, 0.1, 3600.0);
 
@@ -48,6 +55,11 @@ struct SimulatorParams {
     field("mode_settle_s", interface.mode_settle_s, 0.0, 1.0);
     field("boot_s", interface.boot_s, 0.2, 60.0);
     field("sleep_after_s", interface.sleep_after_s, 1.0, 86400.0);
+
+    field("camera_size", camera_size, {"640x480", "320x240"});
+    field("camera_registered", camera_registered);
+    depth.visit_fields(field);
+    color.visit_fields(field);
   }
 };
 

@@ -8,16 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "services/simulator/scenario/scenario.h"
 #include "services/simulator/simulator_messages.h"
+#include "services/simulator/world_setup.h"
 
 namespace roomwise::simulator {
 namespace {
 
 constexpr Duration kTick{2'000};
-constexpr std::int64_t kTruthRate_hz = 60;
-constexpr std::int64_t kCameraRate_hz = 30;
-constexpr std::int64_t kLandmarkRate_hz = 1;
 /// Bytes taken from the port ahead of the line's pace; the rest waits in the terminal, and its
 /// writer with it.
 constexpr std::size_t kReadAhead = 256;
@@ -27,43 +24,8 @@ std::filesystem::path port_link(const SimulatorParams& params) {
   return fmt::format("/tmp/roomwise-{}/create", ::getuid());
 }
 
-Scenario load(const SimulatorParams& params) {
-  return load_scenario(find_scenario(params.scenario, ROOMWISE_SCENARIO_FOLDER));
-}
-
-Fault fault_of(const TimedFault& timed) {
-  std::string text = fmt::format("at_s={},kind={}", timed.at_s, timed.name);
-  if (timed.for_s > 0.0) text += fmt::format(",for_s={}", timed.for_s);
-  if (timed.value >= 1.0) text += fmt::format(",count={:.0f}", timed.value);
-  try {
-    return parse_fault(text);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(timed.where + ": " + error.what());
-  }
-}
-
-SimulatedCreate::Setup setup_of(const SimulatorParams& params, const Scenario& scenario) {
-  SimulatedCreate::Setup setup{.robot = params.robot,
-                               .interface = params.interface,
-                               .battery_ratio = params.battery_ratio,
-                               .T_world_robot = {},
-                               .faults = {},
-                               .seed = static_cast<std::uint64_t>(params.seed)};
-  for (const TimedFault& timed : scenario.faults) setup.faults.push_back(fault_of(timed));
-  for (const std::string& text : params.fault) setup.faults.push_back(parse_fault(text));
-  return setup;
-}
-
-SimulatedWorld world_of(const SimulatorParams& params) {
-  Scenario scenario = load(params);
-  SimulatedCreate::Setup setup = setup_of(params, scenario);
-  return {std::move(scenario.scene), std::move(setup)};
-}
-
-/// True if something that happens so often happened in the step that ends `now`.
-bool is_due(Duration now, std::int64_t rate_hz) {
-  const auto count = [rate_hz](Duration t) { return t.count() * rate_hz / 1'000'000; };
-  return count(now) != count(now - SimulatedCreate::kStep);
+std::filesystem::path door_of(const SimulatorParams& params) {
+  return params.kinect_door.empty() ? default_frame_door() : params.kinect_door;
 }
 
 Bus& live(Bus& bus) {
@@ -79,8 +41,10 @@ SimulatorService::SimulatorService(Bus& bus, const Params& params)
           std::chrono::duration_cast<Duration>(std::chrono::duration<double>(params.catch_up_s))),
       world_(world_of(params)),
       port_(port_link(params)),
-      real_time_(bus.now()) {
-  spdlog::info("simulator: {}; Create on {}", world_.scene().name, port_link(params).string());
+      real_time_(bus.now()),
+      camera_(world_.scene(), params, door_of(params)) {
+  spdlog::info("simulator: {}; Create on {}, Kinect behind {}", world_.scene().name,
+               port_link(params).string(), door_of(params).string());
   bus_.every(kTick, [this](Time) { advance(); });
 }
 
@@ -113,8 +77,8 @@ void SimulatorService::step() {
     truth_t truth = truth_message(world_, real_time_.stamp(now), is_due(now, kLandmarkRate_hz));
     bus_.publish(channels::kTruth, truth);
   }
-  if (take_camera_moment_ && is_due(now, kCameraRate_hz)) {
-    take_camera_moment_({real_time_.stamp(now), seconds(now), world_.T_world_camera()});
+  if (is_due(now, kCameraRate_hz)) {
+    camera_.take({real_time_.stamp(now), now, world_.T_world_camera()});
   }
 }
 
@@ -129,6 +93,9 @@ void SimulatorService::answer() {
   const std::int64_t line_lost =
       create.bytes_lost() - std::exchange(line_bytes_lost_, create.bytes_lost());
   if (line_lost > 0) bus_.count("line_bytes_lost", line_lost);
+  const std::int64_t dropped =
+      camera_.dropped() - std::exchange(camera_moments_dropped_, camera_.dropped());
+  if (dropped > 0) bus_.count("camera_moments_dropped", dropped);
 }
 
 }  // namespace roomwise::simulator

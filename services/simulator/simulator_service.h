@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "common/bus/bus.h"
+#include "services/simulator/camera_feed.h"
 #include "services/simulator/device/pty.h"
 #include "services/simulator/real_time.h"
 #include "services/simulator/simulated_world.h"
@@ -11,15 +11,8 @@
 
 namespace roomwise::simulator {
 
-/// An instant at which the simulated camera takes a frame.
-struct CameraMoment {
-  Time stamp;
-  double t_s = 0.0;  ///< since the world began: where its walkers are
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-};
-
 /// The simulated world in real time: a Create on a pseudo-terminal, TRUTH at 60 Hz with the true
-/// landmarks once a second, and the camera's moments at 30 Hz.
+/// landmarks once a second, and a Kinect's frames at 30 Hz behind the frame door.
 ///
 /// The world lives in steps of a millisecond by the monotonic clock. After a hiccup it lives
 /// through every step it missed, up to catch_up_s; what is left out beyond that is counted.
@@ -30,11 +23,6 @@ class SimulatorService {
   /// Throws std::runtime_error on a scenario or fault that cannot be read, a port that cannot be
   /// made, and in a replay: a simulator has no input to replay.
   SimulatorService(Bus& bus, const Params& params);
-
-  /// Hands every camera moment to `take`, on the bus's thread: it must not wait for a frame.
-  void on_camera_moment(std::function<void(const CameraMoment&)> take) {
-    take_camera_moment_ = std::move(take);
-  }
 
  private:
   void advance();
@@ -47,10 +35,11 @@ class SimulatorService {
   SimulatedWorld world_;
   Pty port_;
   RealTime real_time_;
-  std::function<void(const CameraMoment&)> take_camera_moment_;
+  CameraFeed camera_;
   std::vector<std::uint8_t> from_host_;
   std::vector<std::uint8_t> to_host_;
   std::int64_t line_bytes_lost_ = 0;
+  std::int64_t camera_moments_dropped_ = 0;
 };
 
 }  // namespace roomwise::simulator

@@ -11,7 +11,6 @@ namespace roomwise::simulator {
 struct DriveRequest {
   std::string path = "loop1";  ///< one of the scenario's
   double seconds = 0.0;        ///< ends after that; 0: with the path
-  bool with_labels = false;    ///< TRUTH carries the true label image of every camera frame
 };
 
 /// What came of it.
