@@ -25,7 +25,8 @@ std::filesystem::path port_link(const SimulatorParams& params) {
 }
 
 std::filesystem::path door_of(const SimulatorParams& params) {
-  return params.kinect_door.empty() ? default_frame_door() : params.kinect_door;
+  if (params.kinect_door.empty()) return default_frame_door();
+  return params.kinect_door;
 }
 
 Bus& live(Bus& bus) {

@@ -17,7 +17,7 @@ namespace {
 struct RecordOptions {
   std::filesystem::path log_path;
   std::filesystem::path params_path;
-  DriveRequest request;
+  DriveOrder request;
 };
 
 void add_options(CLI::App& app, RecordOptions& options) {

@@ -70,7 +70,7 @@ class RecordedCamera {
 
 class RecordedDrive {
  public:
-  RecordedDrive(const SimulatorParams& params, const DriveRequest& request, LogWriter& log)
+  RecordedDrive(const SimulatorParams& params, const DriveOrder& request, LogWriter& log)
       : world_(world_of(params)),
         camera_(params, world_.scene()),
         follower_({world_.scene().start, path_of(world_.scene(), request.path)}, kWheelBase_m),
@@ -134,7 +134,7 @@ class RecordedDrive {
 
 }  // namespace
 
-DriveSummary record_drive(const SimulatorParams& params, const DriveRequest& request,
+DriveSummary record_drive(const SimulatorParams& params, const DriveOrder& request,
                           const std::filesystem::path& log_path) {
   if (params.interface.model != "create2") {
     throw std::runtime_error("create_model must be create2: a recorded drive needs its encoders");

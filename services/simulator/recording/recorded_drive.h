@@ -8,7 +8,7 @@
 namespace roomwise::simulator {
 
 /// A drive that is recorded and not lived.
-struct DriveRequest {
+struct DriveOrder {
   std::string path = "loop1";  ///< one of the scenario's
   double seconds = 0.0;        ///< ends after that; 0: with the path
 };
@@ -24,7 +24,7 @@ struct DriveSummary {
 /// would have recorded: KINECT_FRAME at 30 Hz, CREATE_STATE and ODOMETRY as the robot's stream has
 /// them, TRUTH at 60 Hz. The same request and parameters give the same bytes. Throws
 /// std::runtime_error naming the scenario, path or file at fault; no log is left then.
-DriveSummary record_drive(const SimulatorParams& params, const DriveRequest& request,
+DriveSummary record_drive(const SimulatorParams& params, const DriveOrder& request,
                           const std::filesystem::path& log_path);
 
 }  // namespace roomwise::simulator

@@ -34,10 +34,11 @@ class RecordedDriveTest : public testing::Test {
   std::vector<Message> messages(const std::string& name, const Channel<Message>& channel) const {
     LogReader log(folder_.path() / name);
     std::vector<Message> found;
-    while (const auto event = log.next()) {
+    LogEvent event;
+    while (log.next(event)) {
       Message message{};
-      if (event->channel != channel.name) continue;
-      EXPECT_TRUE(decode(event->data, message));
+      if (event.channel != channel.name) continue;
+      EXPECT_TRUE(decode(event.data, message));
       found.push_back(std::move(message));
     }
     return found;
