@@ -90,7 +90,9 @@ class CreateDriverProcess : public ::testing::Test {
   /// How long after `since` the wheels stood, if they do within some seconds.
   std::optional<Clock::duration> time_to_stop(Clock::time_point since) {
     if (!wait_until([&] { return !drives(); }, 5)) return std::nullopt;
-    return robot_->stopped_at() - since;
+    const auto time = robot_->stopped_at() - since;
+    RecordProperty("stopped_after_ms", std::to_string(time / milliseconds(1)));
+    return time;
   }
 
   ScratchFolder folder_;

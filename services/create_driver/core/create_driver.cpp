@@ -36,6 +36,13 @@ Rounding rounding_of(const CreateParams& params) {
   return params.angle_rounding == "carry" ? Rounding::kCarry : Rounding::kTruncate;
 }
 
+Wish wish_of(const std::optional<VelocityCommand>& command) {
+  if (!command) return Wish::kStand;
+  if (command->speed_mps > 0.0) return Wish::kForward;
+  const bool stands = command->speed_mps == 0.0 && command->turn_rate_radps == 0.0;
+  return stands ? Wish::kStand : Wish::kBackOrTurn;
+}
+
 }  // namespace
 
 CreateDriver::CreateDriver(const CreateParams& params)
@@ -68,10 +75,7 @@ std::span<const std::uint8_t> CreateDriver::step(const Instant& now,
   reports_.clear();
   notice_stall(now);
   receive(now, received);
-  const auto command = gate_.in_force(now);
-  const bool wants_to_move =
-      command && (command->speed_mps != 0.0 || command->turn_rate_radps != 0.0);
-  mode_keeper_.step(now.steady, wants_to_move, counts_, to_send_);
+  mode_keeper_.step(now.steady, wish_of(gate_.in_force(now)), counts_, to_send_);
   drive(now);
   if (model_ == Model::kCreate1 && mode_keeper_.line_is_free(now.steady)) {
     body_readings_.ask_if_due(now.steady, to_send_);

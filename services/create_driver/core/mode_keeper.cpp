@@ -29,6 +29,11 @@ constexpr int kWheelDropBits = 0x1C;  // right, left, caster of a Create 1
 constexpr int kChargerBit = 1;
 constexpr int kHomeBaseBit = 2;
 
+bool sees_cliff(const SensorPackets& packets) {
+  return packets[Packet::kCliffLeft] != 0 || packets[Packet::kCliffFrontLeft] != 0 ||
+         packets[Packet::kCliffFrontRight] != 0 || packets[Packet::kCliffRight] != 0;
+}
+
 }  // namespace
 
 ModeKeeper::ModeKeeper(Model model, OiMode target, std::vector<std::uint8_t> ids)
@@ -50,7 +55,7 @@ void ModeKeeper::see(Duration now, const SensorPackets& packets) {
   has_frame_ = true;
 }
 
-void ModeKeeper::step(Duration now, bool wants_to_move, DriverCounts& counts, Bytes& bytes) {
+void ModeKeeper::step(Duration now, Wish wish, DriverCounts& counts, Bytes& bytes) {
   if (stream_is_silent(now)) {
     counts.add(DriverEvent::kRobotSilent);
     append_drive({}, bytes);
@@ -70,7 +75,7 @@ void ModeKeeper::step(Duration now, bool wants_to_move, DriverCounts& counts, By
       if (now >= until_) begin(now);
       return;
     case Phase::kResting:
-      return rest(now, wants_to_move, bytes);
+      return rest(now, wish, bytes);
     case Phase::kEntering:
       return check_entry(now, counts);
     case Phase::kDriving:
@@ -116,18 +121,21 @@ void ModeKeeper::give_up_asking(Duration now, DriverCounts& counts, Bytes& bytes
   enter(Phase::kWaking, now + kWakePulse);
 }
 
-void ModeKeeper::rest(Duration now, bool wants_to_move, Bytes& bytes) {
+void ModeKeeper::rest(Duration now, Wish wish, Bytes& bytes) {
   if (mode_ == OiMode::kOff) return begin(now);
-  if (now < until_ || is_kept_from_driving(wants_to_move)) return;
+  if (now < until_ || is_kept_from_driving(wish)) return;
   append_command(target_ == OiMode::kFull ? Opcode::kFull : Opcode::kSafe, bytes);
   asked_ = now;
   enter(Phase::kEntering, now + kEntryPatience);
 }
 
-bool ModeKeeper::is_kept_from_driving(bool wants_to_move) const {
+bool ModeKeeper::is_kept_from_driving(Wish wish) const {
   const int sources = packets_[Packet::kChargingSources];
-  return (packets_[Packet::kBumpsAndDrops] & kWheelDropBits) != 0 || (sources & kChargerBit) != 0 ||
-         ((sources & kHomeBaseBit) != 0 && !wants_to_move);
+  const bool is_lifted = (packets_[Packet::kBumpsAndDrops] & kWheelDropBits) != 0;
+  const bool is_plugged_in = (sources & kChargerBit) != 0;
+  const bool is_at_home = (sources & kHomeBaseBit) != 0;
+  return is_lifted || is_plugged_in || (is_at_home && wish == Wish::kStand) ||
+         (sees_cliff(packets_) && wish == Wish::kForward);
 }
 
 void ModeKeeper::check_entry(Duration now, DriverCounts& counts) {

@@ -10,6 +10,9 @@
 
 namespace roomwise::create {
 
+/// What the command in force would have the robot do.
+enum class Wish : std::uint8_t { kStand, kForward, kBackOrTurn };
+
 /// Gets the robot into the mode in which it obeys, and back there when it leaves it:
 ///
 ///   stop, Start -> stream -> Passive seen -> Safe (or Full) -> seen: may drive
@@ -39,7 +42,7 @@ class ModeKeeper {
   void see(Duration now, const SensorPackets& packets);
 
   /// Appends what is to be sent now.
-  void step(Duration now, bool wants_to_move, DriverCounts& counts, Bytes& bytes);
+  void step(Duration now, Wish wish, DriverCounts& counts, Bytes& bytes);
 
   bool may_drive() const { return phase_ == Phase::kDriving; }
   /// True while the robot is kept out of its mode by what is the matter with it.
@@ -65,12 +68,12 @@ class ModeKeeper {
   void start(Duration now, Bytes& bytes);
   void ask_for_stream(Duration now, Bytes& bytes);
   void look_for_passive(Duration now, DriverCounts& counts, Bytes& bytes);
-  void rest(Duration now, bool wants_to_move, Bytes& bytes);
+  void rest(Duration now, Wish wish, Bytes& bytes);
   void check_entry(Duration now, DriverCounts& counts);
   void check_mode(Duration now, DriverCounts& counts, Bytes& bytes);
   void give_up_asking(Duration now, DriverCounts& counts, Bytes& bytes);
   void leave_unknown_mode(Duration now, DriverCounts& counts, Bytes& bytes);
-  bool is_kept_from_driving(bool wants_to_move) const;
+  bool is_kept_from_driving(Wish wish) const;
   bool stream_is_silent(Duration now) const;
 
   Model model_;

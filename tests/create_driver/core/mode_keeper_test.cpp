@@ -36,7 +36,7 @@ class Talk {
   int full_byte = 3;     // what Full leads to
   bool is_deaf = false;  // hears and says nothing
   bool is_streaming = false;
-  bool wants_to_move = false;
+  Wish wish = Wish::kStand;
   Duration now = std::chrono::hours(1);
   Duration mode_command_at{};
   Duration spacing = seconds(1);  // shortest silence after a mode command
@@ -48,7 +48,7 @@ class Talk {
       keeper.see(now, packets);
     }
     Bytes bytes;
-    keeper.step(now, wants_to_move, counts, bytes);
+    keeper.step(now, wish, counts, bytes);
     if (!bytes.empty() && now > mode_command_at) {
       spacing = std::min(spacing, now - mode_command_at);
     }
@@ -136,7 +136,7 @@ TEST(ModeKeeper, AHangingWheelOrAChargerPlugKeepsItFromDriving) {
        {std::pair(Packet::kBumpsAndDrops, 4), std::pair(Packet::kBumpsAndDrops, 8),
         std::pair(Packet::kBumpsAndDrops, 16), std::pair(Packet::kChargingSources, 1)}) {
     Talk talk;
-    talk.wants_to_move = true;
+    talk.wish = Wish::kForward;
     talk.packets.set(packet, bits);
     talk.run(seconds(3));
     EXPECT_FALSE(talk.keeper.may_drive()) << bits;
@@ -145,6 +145,22 @@ TEST(ModeKeeper, AHangingWheelOrAChargerPlugKeepsItFromDriving) {
     talk.packets.set(packet, 0);
     talk.run(milliseconds(100));
     EXPECT_TRUE(talk.keeper.may_drive()) << bits;
+  }
+}
+
+TEST(ModeKeeper, AtAnEdgeItDoesNotCreepForward) {
+  for (const Packet sensor : {Packet::kCliffLeft, Packet::kCliffFrontLeft, Packet::kCliffFrontRight,
+                              Packet::kCliffRight}) {
+    Talk talk;
+    talk.wish = Wish::kForward;
+    talk.run(milliseconds(300));
+    talk.packets.set(sensor, 1);
+    talk.mode_byte = 1;  // it trips
+    talk.run(seconds(3));
+    EXPECT_FALSE(talk.keeper.may_drive());
+    talk.wish = Wish::kBackOrTurn;
+    talk.run(milliseconds(100));
+    EXPECT_TRUE(talk.keeper.may_drive());
   }
 }
 
@@ -160,7 +176,7 @@ TEST(ModeKeeper, OnItsHomeBaseItRestsUntilItIsAskedToMove) {
   talk.packets.set(Packet::kChargingSources, 2);
   talk.run(seconds(1));
   EXPECT_FALSE(talk.keeper.may_drive());
-  talk.wants_to_move = true;
+  talk.wish = Wish::kForward;
   talk.run(milliseconds(100));
   EXPECT_TRUE(talk.keeper.may_drive());
 }
