@@ -33,23 +33,28 @@ void blend(float* own, const float* seen, float own_share, float seen_share, con
   for (int u = run.begin; u < run.end; ++u) own[u] = own_share * own[u] + seen_share * seen[u];
 }
 
-/// What window glass and mirrors make of what is seen through or in them.
-void pass_on(const Material& material, const Run& run, const ViewRow& seen, const ViewRow& own) {
+/// What window glass and mirrors make of the depth seen through or in them.
+void pass_on_depth(const Material& material, const Run& run, const ViewRow& seen,
+                   const ViewRow& own) {
+  const float mirror = material.see_through ? 1.0F : material.mirror;
+  const bool is_mirror_world = !material.see_through && mirror > kMirrorWins;
+  const float kept = (1.0F - mirror) * (1.0F - mirror);  // light goes there and back
+  const float passed = is_mirror_world ? mirror * mirror : 0.0F;
+  blend(own.infrared_ratio, seen.infrared_ratio, is_mirror_world ? 0.0F : kept, passed, run);
+  if (material.see_through || is_mirror_world) {
+    blend(own.inverse_depth_per_m, seen.inverse_depth_per_m, 0.0F, is_mirror_world ? 1.0F : 0.0F,
+          run);
+  }
+}
+
+void pass_on_color(const Material& material, const Run& run, const ViewRow& seen,
+                   const ViewRow& own) {
   const float mirror = material.see_through ? 1.0F : material.mirror;
   const std::array<float, 3> share =
       material.see_through ? material.color : std::array<float, 3>{mirror, mirror, mirror};
   blend(own.red, seen.red, 1.0F - mirror, share[0], run);
   blend(own.green, seen.green, 1.0F - mirror, share[1], run);
   blend(own.blue, seen.blue, 1.0F - mirror, share[2], run);
-  if (material.see_through) {
-    blend(own.inverse_depth_per_m, own.inverse_depth_per_m, 0.0F, 0.0F, run);
-    blend(own.infrared_ratio, own.infrared_ratio, 0.0F, 0.0F, run);
-  } else if (mirror > kMirrorWins) {
-    blend(own.inverse_depth_per_m, seen.inverse_depth_per_m, 0.0F, 1.0F, run);
-    blend(own.infrared_ratio, seen.infrared_ratio, 0.0F, mirror * mirror, run);
-  } else {
-    blend(own.infrared_ratio, own.infrared_ratio, 0.0F, (1.0F - mirror) * (1.0F - mirror), run);
-  }
 }
 
 ViewRow row_of(KinectView& view, int v) {
@@ -170,7 +175,8 @@ void KinectRenderer::look_on(const RayFrame& rays, const Run& run, const Surface
     part.end = run_end(surfaces_, triangles, part.begin, run.end);
     shade_run(onward, part, triangles[part.begin], wanted, level + 1, seen);
   }
-  pass_on(material, run, seen, row);
+  pass_on_depth(material, run, seen, row);
+  if (wanted != Wanted::kDepth) pass_on_color(material, run, seen, row);
 }
 
 }  // namespace roomwise::simulator

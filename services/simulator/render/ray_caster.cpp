@@ -152,9 +152,25 @@ void RayCaster::commit() {
   if (whole_) rtcCommitScene(whole_.get());
 }
 
-std::uint32_t RayCaster::triangle(const RTCHit16& hit, int lane) const {
-  if (hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return kNoTriangle;
-  return table_.first_of_part(whole_ ? hit.instID[0][lane] : 0) + hit.primID[lane];
+void RayCaster::number(const RTCHit16& hit, std::uint32_t* triangles) const {
+  for (int i = 0; i < kLanes; ++i) {
+    triangles[i] = hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : hit.primID[i];
+  }
+  if (!whole_) return;
+  for (int i = 0; i < kLanes; ++i) {
+    if (triangles[i] != kNoTriangle) triangles[i] += table_.first_of_part(hit.instID[0][i]);
+  }
+}
+
+void RayCaster::store(const RTCHit16& hit, int u0, int v0, int width_px, int height_px,
+                      std::uint32_t* triangles) const {
+  std::uint32_t numbers[kLanes];
+  number(hit, numbers);
+  const int columns = std::clamp(width_px - u0, 0, kTile_px);
+  const int rows = std::clamp(height_px - v0, 0, kTile_px);
+  for (int i = 0; i < rows; ++i) {
+    std::copy_n(numbers + kTile_px * i, columns, triangles + (v0 + i) * width_px + u0);
+  }
 }
 
 void RayCaster::cast(const RayFrame& rays, int width_px, int height_px,
@@ -168,10 +184,9 @@ void RayCaster::cast(const RayFrame& rays, int width_px, int height_px,
       set_directions(rays.direction(u, v).cast<float>(), steps, block);
       rtcIntersectNM(root(), &context, reinterpret_cast<RTCRayHitN*>(block.packets), kLanes,
                      kPackets, sizeof(RTCRayHit16));
-      for (int i = 0; i < kPackets * kLanes; ++i) {
-        const int column = u + block_column(i), row = v + block_row(i);
-        if (column >= width_px || row >= height_px) continue;
-        triangles[row * width_px + column] = triangle(block.packets[i / kLanes].hit, i % kLanes);
+      for (int k = 0; k < kPackets; ++k) {
+        store(block.packets[k].hit, u + block_column(k * kLanes), v + block_row(k * kLanes),
+              width_px, height_px, triangles);
       }
     }
   }
@@ -193,9 +208,9 @@ void RayCaster::cast_row(const RayFrame& rays, int v, int begin, int end, const 
     }
     reset_hits(packet);
     rtcIntersect16(valid, root(), &context, &packet);
-    for (int lane = 0; u + lane < end && lane < kLanes; ++lane) {
-      triangles[u + lane] = triangle(packet.hit, lane);
-    }
+    std::uint32_t numbers[kLanes];
+    number(packet.hit, numbers);
+    std::copy_n(numbers, std::min(kLanes, end - u), triangles + u);
   }
 }
 

@@ -50,7 +50,9 @@ class RayCaster {
   SceneHandle build(const std::vector<Mesh>& meshes) const;
   void make_instances();
   RTCScene root() const { return whole_ ? whole_.get() : parts_.front().get(); }
-  std::uint32_t triangle(const RTCHit16& hit, int lane) const;
+  void number(const RTCHit16& hit, std::uint32_t* triangles) const;
+  void store(const RTCHit16& hit, int u0, int v0, int width_px, int height_px,
+             std::uint32_t* triangles) const;
 
   const SurfaceTable& table_;
   Device device_;

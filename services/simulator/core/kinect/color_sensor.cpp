@@ -42,16 +42,34 @@ inline float level_of(float light, float noise, const Exposure& exposure) {
   return level < 0.0F ? 0.0F : level > 255.0F ? 255.0F : level;
 }
 
-/// Levels of one row: red, then green, then blue; 3 x width.
+/// Three rows of one colour, the middle one being taken; each can be read one pixel to either side.
+struct Rows {
+  const float* above;
+  const float* here;
+  const float* below;
+};
+
+/// A lens and a mosaic of colour filters never show one pixel alone: a quarter of its light is that
+/// of each pair of neighbours.
 ROOMWISE_MULTIVERSION
-void expose_row(const float* red, const float* green, const float* blue, std::uint32_t key,
-                Exposure exposure, int width, float* __restrict levels) {
+void soften(Rows rows, int width, float* __restrict light) {
+  for (int u = 0; u < width; ++u) {
+    const float beside = rows.here[u - 1] + rows.here[u + 1] + rows.above[u] + rows.below[u];
+    light[u] = 0.5F * rows.here[u] + 0.125F * beside;
+  }
+}
+
+/// Turns three rows of light, red, green and blue, into levels.
+ROOMWISE_MULTIVERSION
+void expose_row(std::uint32_t key, Exposure exposure, int width, float* __restrict rows) {
   for (int u = 0; u < width; ++u) {
     const std::uint32_t bits = hash32(key + static_cast<std::uint32_t>(u));
     const std::uint32_t more = bits * 0x9e3779b9U;
-    levels[u] = level_of(red[u], noise_of(bits), exposure);
-    levels[width + u] = level_of(green[u], noise_of(bits >> 21 | (more >> 21) << 11), exposure);
-    levels[2 * width + u] = level_of(blue[u], noise_of(more >> 11), exposure);
+    const float blue_noise = noise_of(more >> 11);
+    rows[u] = level_of(rows[u], noise_of(bits), exposure);
+    rows[width + u] =
+        level_of(rows[width + u], noise_of(bits >> 21 | (more >> 21) << 11), exposure);
+    rows[2 * width + u] = level_of(rows[2 * width + u], blue_noise, exposure);
   }
 }
 
@@ -95,6 +113,20 @@ void ColorSensor::steer(double wanted_gain) {
   gain_ *= std::clamp(wanted_gain / gain_, 1.0 - step, 1.0 + step);
 }
 
+void ColorSensor::gather_light(const KinectView& view, int v) {
+  const std::ptrdiff_t width = view.width_px;
+  float* out = levels_.data();
+  for (const auto* plane : {&view.red, &view.green, &view.blue}) {
+    const float* here = plane->data() + v * width;
+    const float* above = v > 0 ? here - width : here;
+    const float* below = v + 1 < view.height_px ? here + width : here;
+    soften({above + 1, here + 1, below + 1}, view.width_px - 2, out + 1);
+    out[0] = here[0];
+    out[width - 1] = here[width - 1];
+    out += width;
+  }
+}
+
 void ColorSensor::expose(const KinectView& view, std::int64_t frame, double t_s, ColorImage& out) {
   const double wanted = wanted_gain(view);
   if (gain_ == 0.0) gain_ = wanted;
@@ -109,8 +141,8 @@ void ColorSensor::expose(const KinectView& view, std::int64_t frame, double t_s,
     const Exposure exposure{.gain = static_cast<float>(gain_ * lamps),
                             .noise_levels = noise_levels};
     const auto begin = static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px);
-    expose_row(view.red.data() + begin, view.green.data() + begin, view.blue.data() + begin,
-               key + static_cast<std::uint32_t>(begin), exposure, view.width_px, levels_.data());
+    gather_light(view, v);
+    expose_row(key + static_cast<std::uint32_t>(begin), exposure, view.width_px, levels_.data());
     interleave(levels_.data(), view.width_px, out.rgb.data() + 3 * begin);
   }
   steer(wanted);
