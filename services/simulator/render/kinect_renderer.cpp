@@ -19,38 +19,42 @@ Eigen::Isometry3d upright(const Pose2& pose) {
   return T;
 }
 
-/// Calls visit(begin, end, triangle) for each stretch of the same triangle in [begin, end).
-template <class Visit>
-void for_each_run(const std::uint32_t* triangles, int begin, int end, Visit&& visit) {
-  while (begin < end) {
-    int last = begin + 1;
-    while (last < end && triangles[last] == triangles[begin]) ++last;
-    visit(begin, last, triangles[begin]);
-    begin = last;
-  }
+/// End of the stretch of pixels from `begin` on that show one flat piece, at most `end`.
+int run_end(const SurfaceTable& surfaces, const std::uint32_t* triangles, int begin, int end) {
+  const std::uint32_t first = triangles[begin];
+  int u = begin + 1;
+  while (u < end && triangles[u] == first) ++u;
+  if (u == end || first == kNoTriangle || triangles[u] == kNoTriangle) return u;
+  const bool continues = surfaces.flat_piece(triangles[u]) == surfaces.flat_piece(first);
+  return continues ? run_end(surfaces, triangles, u, end) : u;
 }
 
 void blend(float* own, const float* seen, float own_share, float seen_share, const Run& run) {
   for (int u = run.begin; u < run.end; ++u) own[u] = own_share * own[u] + seen_share * seen[u];
 }
 
-/// What window glass and mirrors make of what is seen through or in them.
-void pass_on(const Material& material, const Run& run, const ViewRow& seen, const ViewRow& own) {
+/// What window glass and mirrors make of the depth seen through or in them.
+void pass_on_depth(const Material& material, const Run& run, const ViewRow& seen,
+                   const ViewRow& own) {
+  const float mirror = material.see_through ? 1.0F : material.mirror;
+  const bool is_mirror_world = !material.see_through && mirror > kMirrorWins;
+  const float kept = (1.0F - mirror) * (1.0F - mirror);  // light goes there and back
+  const float passed = is_mirror_world ? mirror * mirror : 0.0F;
+  blend(own.infrared_ratio, seen.infrared_ratio, is_mirror_world ? 0.0F : kept, passed, run);
+  if (material.see_through || is_mirror_world) {
+    blend(own.inverse_depth_per_m, seen.inverse_depth_per_m, 0.0F, is_mirror_world ? 1.0F : 0.0F,
+          run);
+  }
+}
+
+void pass_on_color(const Material& material, const Run& run, const ViewRow& seen,
+                   const ViewRow& own) {
   const float mirror = material.see_through ? 1.0F : material.mirror;
   const std::array<float, 3> share =
       material.see_through ? material.color : std::array<float, 3>{mirror, mirror, mirror};
   blend(own.red, seen.red, 1.0F - mirror, share[0], run);
   blend(own.green, seen.green, 1.0F - mirror, share[1], run);
   blend(own.blue, seen.blue, 1.0F - mirror, share[2], run);
-  if (material.see_through) {
-    blend(own.inverse_depth_per_m, own.inverse_depth_per_m, 0.0F, 0.0F, run);
-    blend(own.infrared_ratio, own.infrared_ratio, 0.0F, 0.0F, run);
-  } else if (mirror > kMirrorWins) {
-    blend(own.inverse_depth_per_m, seen.inverse_depth_per_m, 0.0F, 1.0F, run);
-    blend(own.infrared_ratio, seen.infrared_ratio, 0.0F, mirror * mirror, run);
-  } else {
-    blend(own.infrared_ratio, own.infrared_ratio, 0.0F, (1.0F - mirror) * (1.0F - mirror), run);
-  }
 }
 
 ViewRow row_of(KinectView& view, int v) {
@@ -97,8 +101,8 @@ void KinectRenderer::move_walkers(double t_s) {
   if (scene_.walkers.empty()) return;
   for (std::size_t i = 0; i < scene_.walkers.size(); ++i) {
     const Eigen::Isometry3d T_world_walker = upright(walker_pose(scene_.walkers[i], t_s));
-    surfaces_.move_walker(i, T_world_walker);
-    caster_.move_walker(i, T_world_walker);
+    surfaces_.move(i + 1, T_world_walker);
+    caster_.move(i + 1, T_world_walker);
   }
   caster_.commit();
 }
@@ -123,32 +127,25 @@ void KinectRenderer::render(const Eigen::Isometry3d& T_world_camera, const Pinho
 void KinectRenderer::cast_and_shade(const RayFrame& rays, Wanted wanted, KinectView& out) {
   caster_.cast(rays, out.width_px, out.height_px, triangles_.data());
   for (int v = 0; v < out.height_px; ++v) {
-    const Run whole{v, 0, out.width_px};
     const std::uint32_t* triangles =
         triangles_.data() + static_cast<std::ptrdiff_t>(v) * out.width_px;
-    if (wanted != Wanted::kColor) name_surfaces(whole, triangles, out);
-    shade_row(rays, whole, triangles, wanted, 0, row_of(out, v));
+    const ViewRow row = row_of(out, v);
+    for (Run run{v, 0, 0}; run.begin < out.width_px; run.begin = run.end) {
+      run.end = run_end(surfaces_, triangles, run.begin, out.width_px);
+      if (wanted != Wanted::kColor) name_surface(run, triangles[run.begin], out);
+      shade_run(rays, run, triangles[run.begin], wanted, 0, row);
+    }
   }
 }
 
-void KinectRenderer::name_surfaces(const Run& run, const std::uint32_t* triangles,
-                                   KinectView& out) const {
-  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(run.v) * out.width_px;
-  for_each_run(triangles, run.begin, run.end, [&](int begin, int end, std::uint32_t triangle) {
-    const bool is_there = triangle != kNoTriangle;
-    const auto surface_class =
-        is_there ? static_cast<std::uint8_t>(surfaces_[triangle].surface_class) : kNoSurface;
-    const std::uint16_t material = is_there ? surfaces_[triangle].material : kNoMaterial;
-    std::fill_n(out.surface_class.begin() + row + begin, end - begin, surface_class);
-    std::fill_n(out.material.begin() + row + begin, end - begin, material);
-  });
-}
-
-void KinectRenderer::shade_row(const RayFrame& rays, const Run& run, const std::uint32_t* triangles,
-                               Wanted wanted, std::size_t level, const ViewRow& row) {
-  for_each_run(triangles, run.begin, run.end, [&](int begin, int end, std::uint32_t triangle) {
-    shade_run(rays, {run.v, begin, end}, triangle, wanted, level, row);
-  });
+void KinectRenderer::name_surface(const Run& run, std::uint32_t triangle, KinectView& out) const {
+  const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(run.v) * out.width_px + run.begin;
+  const bool is_there = triangle != kNoTriangle;
+  const auto surface_class =
+      is_there ? static_cast<std::uint8_t>(surfaces_[triangle].surface_class) : kNoSurface;
+  const std::uint16_t material = is_there ? surfaces_[triangle].material : kNoMaterial;
+  std::fill_n(out.surface_class.begin() + begin, run.end - run.begin, surface_class);
+  std::fill_n(out.material.begin() + begin, run.end - run.begin, material);
 }
 
 void KinectRenderer::shade_run(const RayFrame& rays, const Run& run, std::uint32_t triangle,
@@ -173,8 +170,13 @@ void KinectRenderer::look_on(const RayFrame& rays, const Run& run, const Surface
   }
   caster_.cast_row(onward, run.v, run.begin, run.end, next.from_m.data(), next.triangles.data());
   const ViewRow seen = next.row();
-  shade_row(onward, run, next.triangles.data(), wanted, level + 1, seen);
-  pass_on(material, run, seen, row);
+  const std::uint32_t* triangles = next.triangles.data();
+  for (Run part{run.v, run.begin, run.begin}; part.begin < run.end; part.begin = part.end) {
+    part.end = run_end(surfaces_, triangles, part.begin, run.end);
+    shade_run(onward, part, triangles[part.begin], wanted, level + 1, seen);
+  }
+  pass_on_depth(material, run, seen, row);
+  if (wanted != Wanted::kDepth) pass_on_color(material, run, seen, row);
 }
 
 }  // namespace roomwise::simulator

@@ -46,9 +46,7 @@ class KinectRenderer {
   void make_room(int width_px, int height_px, KinectView& out);
   void move_walkers(double t_s);
   void cast_and_shade(const RayFrame& rays, Wanted wanted, KinectView& out);
-  void name_surfaces(const Run& run, const std::uint32_t* triangles, KinectView& out) const;
-  void shade_row(const RayFrame& rays, const Run& run, const std::uint32_t* triangles,
-                 Wanted wanted, std::size_t level, const ViewRow& row);
+  void name_surface(const Run& run, std::uint32_t triangle, KinectView& out) const;
   void shade_run(const RayFrame& rays, const Run& run, std::uint32_t triangle, Wanted wanted,
                  std::size_t level, const ViewRow& row);
   void look_on(const RayFrame& rays, const Run& run, const Surface& surface, Wanted wanted,

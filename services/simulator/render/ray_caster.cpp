@@ -9,10 +9,8 @@ namespace roomwise::simulator {
 namespace {
 
 constexpr int kLanes = 16;
-constexpr int kTile_px = 4;  // a packet is a tile of 4 x 4: its rays meet the same few triangles
-
-[[noreturn]] void fail(RTCDevice device) {
-  throw std::runtime_error("Embree failed, error " + std::to_string(rtcGetDeviceError(device)));
+[[noreturn]] void fail(RTCError error) {
+  throw std::runtime_error("Embree failed with error " + std::to_string(error));
 }
 
 RTCRayHit16 empty_packet(const Eigen::Vector3d& origin_m) {
@@ -21,6 +19,7 @@ RTCRayHit16 empty_packet(const Eigen::Vector3d& origin_m) {
   std::fill_n(packet.ray.org_x, kLanes, origin.x());
   std::fill_n(packet.ray.org_y, kLanes, origin.y());
   std::fill_n(packet.ray.org_z, kLanes, origin.z());
+  std::fill_n(packet.ray.tnear, kLanes, 0.0F);
   std::fill_n(packet.ray.time, kLanes, 0.0F);
   std::fill_n(packet.ray.mask, kLanes, ~0U);
   std::fill_n(packet.ray.flags, kLanes, 0U);
@@ -34,23 +33,42 @@ void reset_hits(RTCRayHit16& packet) {
   std::fill_n(packet.hit.instID[0], kLanes, RTC_INVALID_GEOMETRY_ID);
 }
 
-/// Directions of a 4 x 4 tile relative to that of its first pixel, lane by lane.
-struct TileSteps {
-  alignas(64) float x[kLanes], y[kLanes], z[kLanes];
+/// Rays go out in square blocks, as packets of 4 x 4 pixels that Embree takes on together: they
+/// meet the same few triangles.
+constexpr int kTile_px = 4;
+constexpr int kBlock_px = 8;
+constexpr int kPackets = kBlock_px * kBlock_px / kLanes;
 
-  explicit TileSteps(const RayFrame& rays) {
-    for (int lane = 0; lane < kLanes; ++lane) {
+/// Where ray i of a block is in it.
+constexpr int block_column(int i) { return i / kLanes % 2 * kTile_px + i % kTile_px; }
+constexpr int block_row(int i) { return i / kLanes / 2 * kTile_px + i % kLanes / kTile_px; }
+
+struct RayBlock {
+  RTCRayHit16 packets[kPackets];
+};
+
+/// Directions of a block's rays relative to that of its first pixel.
+struct RayBlockSteps {
+  alignas(64) float x[kPackets][kLanes], y[kPackets][kLanes], z[kPackets][kLanes];
+
+  explicit RayBlockSteps(const RayFrame& rays) {
+    for (int i = 0; i < kPackets * kLanes; ++i) {
       const Eigen::Vector3f step =
-          (lane % kTile_px * rays.step_u + lane / kTile_px * rays.step_v).cast<float>();
-      x[lane] = step.x(), y[lane] = step.y(), z[lane] = step.z();
+          (block_column(i) * rays.step_u + block_row(i) * rays.step_v).cast<float>();
+      const int packet = i / kLanes, lane = i % kLanes;
+      x[packet][lane] = step.x(), y[packet][lane] = step.y(), z[packet][lane] = step.z();
     }
   }
 };
 
-void set_directions(const Eigen::Vector3f& first, const TileSteps& steps, RTCRayHit16& packet) {
-  for (int lane = 0; lane < kLanes; ++lane) packet.ray.dir_x[lane] = first.x() + steps.x[lane];
-  for (int lane = 0; lane < kLanes; ++lane) packet.ray.dir_y[lane] = first.y() + steps.y[lane];
-  for (int lane = 0; lane < kLanes; ++lane) packet.ray.dir_z[lane] = first.z() + steps.z[lane];
+void set_directions(const Eigen::Vector3f& first, const RayBlockSteps& steps, RayBlock& block) {
+  for (int k = 0; k < kPackets; ++k) {
+    RTCRayHit16& packet = block.packets[k];
+    for (int i = 0; i < kLanes; ++i) packet.ray.dir_x[i] = first.x() + steps.x[k][i];
+    for (int i = 0; i < kLanes; ++i) packet.ray.dir_y[i] = first.y() + steps.y[k][i];
+    for (int i = 0; i < kLanes; ++i) packet.ray.dir_z[i] = first.z() + steps.z[k][i];
+    reset_hits(packet);
+  }
 }
 
 RTCIntersectContext context_of(RTCIntersectContextFlags coherence) {
@@ -60,32 +78,41 @@ RTCIntersectContext context_of(RTCIntersectContextFlags coherence) {
   return context;
 }
 
+/// New memory of a geometry for `count` triples.
 template <class Element>
-Element* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
+Element* triples(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
   return static_cast<Element*>(
       rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(Element), count));
 }
 
-void fill(RTCGeometry geometry, const Mesh& mesh) {
-  auto* corner =
-      new_buffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.corners_m.size());
-  for (const auto& p_m : mesh.corners_m) corner = std::copy_n(p_m.data(), 3, corner);
-  auto* index = new_buffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
-                                          mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) index = std::copy_n(triangle.data(), 3, index);
+/// All meshes as one geometry: triangles are numbered as SurfaceTable numbers them.
+void fill(RTCGeometry geometry, const std::vector<Mesh>& meshes) {
+  std::size_t corners = 0, triangles = 0;
+  for (const Mesh& mesh : meshes) {
+    corners += mesh.corners_m.size();
+    triangles += mesh.triangles.size();
+  }
+  if (triangles == 0) return;
+  auto* corner = triples<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, corners);
+  auto* index =
+      triples<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles);
+  std::uint32_t first = 0;
+  for (const Mesh& mesh : meshes) {
+    for (const auto& p_m : mesh.corners_m) corner = std::copy_n(p_m.data(), 3, corner);
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t i : triangle) *index++ = first + i;
+    }
+    first += static_cast<std::uint32_t>(mesh.corners_m.size());
+  }
 }
 
 }  // namespace
 
 RayCaster::RayCaster(const Scene& scene, const SurfaceTable& table)
     : table_(table), device_(rtcNewDevice("threads=1")) {
-  if (!device_) fail(nullptr);
+  if (!device_) fail(rtcGetDeviceError(nullptr));
   parts_.push_back(build(scene.meshes));
-  first_mesh_.push_back(0);
-  for (std::size_t i = 0; i < scene.walkers.size(); ++i) {
-    parts_.push_back(build(scene.walkers[i].meshes));
-    first_mesh_.push_back(table.first_mesh_of_walker(i));
-  }
+  for (const Walker& walker : scene.walkers) parts_.push_back(build(walker.meshes));
   if (parts_.size() > 1) make_instances();
 }
 
@@ -93,14 +120,12 @@ RayCaster::SceneHandle RayCaster::build(const std::vector<Mesh>& meshes) const {
   SceneHandle scene(rtcNewScene(device_.get()));
   // Robust: no ray slips through between two triangles that share an edge.
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    if (!meshes[i].triangles.empty()) fill(geometry.get(), meshes[i]);
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(scene.get(), geometry.get(), static_cast<unsigned>(i));
-  }
+  const Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  fill(geometry.get(), meshes);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene.get(), geometry.get(), 0);
   rtcCommitScene(scene.get());
-  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) fail(device_.get());
+  if (const RTCError error = rtcGetDeviceError(device_.get())) fail(error);
   return scene;
 }
 
@@ -111,51 +136,57 @@ void RayCaster::make_instances() {
     instances_.emplace_back(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
     rtcSetGeometryInstancedScene(instances_.back().get(), parts_[i].get());
     rtcAttachGeometryByID(whole_.get(), instances_.back().get(), static_cast<unsigned>(i));
-    place(i, Eigen::Isometry3d::Identity());
+    move(i, Eigen::Isometry3d::Identity());
   }
   commit();
 }
 
-void RayCaster::place(std::size_t part, const Eigen::Isometry3d& T_world_part) {
+void RayCaster::move(std::size_t part, const Eigen::Isometry3d& T_world_part) {
   const Eigen::Matrix<float, 3, 4> columns = T_world_part.matrix().topRows<3>().cast<float>();
   rtcSetGeometryTransform(instances_[part].get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
                           columns.data());
   rtcCommitGeometry(instances_[part].get());
 }
 
-void RayCaster::move_walker(std::size_t walker, const Eigen::Isometry3d& T_world_walker) {
-  place(1 + walker, T_world_walker);
-}
-
 void RayCaster::commit() {
   if (whole_) rtcCommitScene(whole_.get());
 }
 
-std::uint32_t RayCaster::triangle(const RTCRayHit16& packet, int lane) const {
-  const unsigned geometry = packet.hit.geomID[lane];
-  if (geometry == RTC_INVALID_GEOMETRY_ID) return kNoTriangle;
-  const std::size_t part = whole_ ? packet.hit.instID[0][lane] : 0;
-  return table_.first_of_mesh(first_mesh_[part] + geometry) + packet.hit.primID[lane];
+void RayCaster::number(const RTCHit16& hit, std::uint32_t* triangles) const {
+  for (int i = 0; i < kLanes; ++i) {
+    triangles[i] = hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : hit.primID[i];
+  }
+  if (!whole_) return;
+  for (int i = 0; i < kLanes; ++i) {
+    if (triangles[i] != kNoTriangle) triangles[i] += table_.first_of_part(hit.instID[0][i]);
+  }
+}
+
+void RayCaster::store(const RTCHit16& hit, int u0, int v0, int width_px, int height_px,
+                      std::uint32_t* triangles) const {
+  std::uint32_t numbers[kLanes];
+  number(hit, numbers);
+  const int columns = std::clamp(width_px - u0, 0, kTile_px);
+  const int rows = std::clamp(height_px - v0, 0, kTile_px);
+  for (int i = 0; i < rows; ++i) {
+    std::copy_n(numbers + kTile_px * i, columns, triangles + (v0 + i) * width_px + u0);
+  }
 }
 
 void RayCaster::cast(const RayFrame& rays, int width_px, int height_px,
                      std::uint32_t* triangles) const {
   RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-  const TileSteps steps(rays);
-  RTCRayHit16 packet = empty_packet(rays.origin_m);
-  std::fill_n(packet.ray.tnear, kLanes, 0.0F);
-  alignas(64) int valid[kLanes];
-  for (int v = 0; v < height_px; v += kTile_px) {
-    for (int u = 0; u < width_px; u += kTile_px) {
-      for (int lane = 0; lane < kLanes; ++lane) {
-        valid[lane] = u + lane % kTile_px < width_px && v + lane / kTile_px < height_px ? -1 : 0;
-      }
-      set_directions(rays.direction(u, v).cast<float>(), steps, packet);
-      reset_hits(packet);
-      rtcIntersect16(valid, root(), &context, &packet);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        if (valid[lane] == 0) continue;
-        triangles[(v + lane / kTile_px) * width_px + u + lane % kTile_px] = triangle(packet, lane);
+  const RayBlockSteps steps(rays);
+  RayBlock block;
+  for (RTCRayHit16& packet : block.packets) packet = empty_packet(rays.origin_m);
+  for (int v = 0; v < height_px; v += kBlock_px) {
+    for (int u = 0; u < width_px; u += kBlock_px) {
+      set_directions(rays.direction(u, v).cast<float>(), steps, block);
+      rtcIntersectNM(root(), &context, reinterpret_cast<RTCRayHitN*>(block.packets), kLanes,
+                     kPackets, sizeof(RTCRayHit16));
+      for (int k = 0; k < kPackets; ++k) {
+        store(block.packets[k].hit, u + block_column(k * kLanes), v + block_row(k * kLanes),
+              width_px, height_px, triangles);
       }
     }
   }
@@ -177,9 +208,9 @@ void RayCaster::cast_row(const RayFrame& rays, int v, int begin, int end, const 
     }
     reset_hits(packet);
     rtcIntersect16(valid, root(), &context, &packet);
-    for (int lane = 0; u + lane < end && lane < kLanes; ++lane) {
-      triangles[u + lane] = triangle(packet, lane);
-    }
+    std::uint32_t numbers[kLanes];
+    number(packet.hit, numbers);
+    std::copy_n(numbers, std::min(kLanes, end - u), triangles + u);
   }
 }
 

@@ -22,8 +22,9 @@ class RayCaster {
   /// Throws std::runtime_error if Embree fails. `table` numbers the triangles of `scene`.
   RayCaster(const Scene& scene, const SurfaceTable& table);
 
-  /// Puts a walker somewhere else; commit() when all are moved.
-  void move_walker(std::size_t walker, const Eigen::Isometry3d& T_world_walker);
+  /// Puts a part of the scene, as `table` counts them, somewhere else; commit() when all are moved.
+  /// The world at rest, part 0, must not be moved.
+  void move(std::size_t part, const Eigen::Isometry3d& T_world_part);
   void commit();
 
   /// Triangle numbers of a width x height image, row by row.
@@ -48,16 +49,16 @@ class RayCaster {
 
   SceneHandle build(const std::vector<Mesh>& meshes) const;
   void make_instances();
-  void place(std::size_t part, const Eigen::Isometry3d& T_world_part);
   RTCScene root() const { return whole_ ? whole_.get() : parts_.front().get(); }
-  std::uint32_t triangle(const RTCRayHit16& packet, int lane) const;
+  void number(const RTCHit16& hit, std::uint32_t* triangles) const;
+  void store(const RTCHit16& hit, int u0, int v0, int width_px, int height_px,
+             std::uint32_t* triangles) const;
 
   const SurfaceTable& table_;
   Device device_;
-  std::vector<SceneHandle> parts_;       ///< the world at rest, then one for each walker
-  std::vector<Geometry> instances_;      ///< of parts_, unless nothing moves
-  std::vector<std::size_t> first_mesh_;  ///< of each part, as `table_` numbers meshes
-  SceneHandle whole_;                    ///< of instances_; none if nothing moves
+  std::vector<SceneHandle> parts_;   ///< the world at rest, then one for each walker
+  std::vector<Geometry> instances_;  ///< of parts_, unless nothing moves
+  SceneHandle whole_;                ///< of instances_; none if nothing moves
 };
 
 }  // namespace roomwise::simulator

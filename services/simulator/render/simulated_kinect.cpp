@@ -17,7 +17,7 @@ void SimulatedKinect::look(const Eigen::Isometry3d& T_world_camera, double t_s,
     return;
   }
   const Eigen::Isometry3d T_world_color =
-      T_world_camera * Eigen::Translation3d(color_params_.offset_m, 0.0, 0.0);
+      T_world_camera * Eigen::Translation3d(color_params_.color_offset_m, 0.0, 0.0);
   renderer_.render(T_world_camera, frame.depth_camera, T_world_color, frame.color_camera, t_s,
                    mode.width_px, mode.height_px, view_);
 }
@@ -28,11 +28,11 @@ void SimulatedKinect::capture(const Eigen::Isometry3d& T_world_camera, double t_
     return kinect_camera(focal_px, mode.width_px, mode.height_px);
   };
   out.depth_registered = mode.registered;
-  out.depth_camera = camera(depth_params_.focal_px);
-  out.color_camera = mode.registered ? out.depth_camera : camera(color_params_.focal_px);
+  out.depth_camera = camera(depth_params_.depth_focal_px);
+  out.color_camera = mode.registered ? out.depth_camera : camera(color_params_.color_focal_px);
   look(T_world_camera, t_s, out, mode);
   const double projector_m =
-      depth_params_.baseline_m - (mode.registered ? color_params_.offset_m : 0.0);
+      depth_params_.projector_m - (mode.registered ? color_params_.color_offset_m : 0.0);
   depth_sensor_.expose(view_, projector_m, frame, out.depth);
   color_sensor_.expose(view_, frame, t_s, out.color);
 }

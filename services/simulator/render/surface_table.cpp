@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace roomwise::simulator {
@@ -23,6 +24,15 @@ void check(const Scene& scene, const Mesh& mesh) {
     const auto largest = *std::max_element(triangle.begin(), triangle.end());
     require(largest < mesh.corners_m.size(), scene, "a triangle without corner");
   }
+}
+
+bool is_same(const Surface& a, const Surface& b) {
+  constexpr double kTolerance = 1e-6;  // corners come as single precision
+  const double apart = (a.normal - b.normal).norm() + (a.s_gradient - b.s_gradient).norm() +
+                       (a.t_gradient - b.t_gradient).norm() + std::abs(a.offset_m - b.offset_m) +
+                       std::abs(a.s_at_origin_m - b.s_at_origin_m) +
+                       std::abs(a.t_at_origin_m - b.t_at_origin_m);
+  return apart < kTolerance && a.material == b.material && a.surface_class == b.surface_class;
 }
 
 }  // namespace
@@ -64,21 +74,21 @@ Surface moved(const Surface& surface, const Eigen::Isometry3d& motion) {
 }
 
 SurfaceTable::SurfaceTable(const Scene& scene) {
-  for (const Mesh& mesh : scene.meshes) add(scene, mesh);
-  at_rest_ = surfaces_.size();
-  for (const Walker& walker : scene.walkers) {
-    walker_meshes_.push_back(first_of_mesh_.size());
-    for (const Mesh& mesh : walker.meshes) add(scene, mesh);
-  }
-  walker_meshes_.push_back(first_of_mesh_.size());
-  first_of_mesh_.push_back(static_cast<std::uint32_t>(surfaces_.size()));
-  walkers_at_origin_.assign(surfaces_.begin() + static_cast<std::ptrdiff_t>(at_rest_),
-                            surfaces_.end());
+  add_part(scene, scene.meshes);
+  for (const Walker& walker : scene.walkers) add_part(scene, walker.meshes);
+  first_of_part_.push_back(static_cast<std::uint32_t>(surfaces_.size()));
+  as_built_ = surfaces_;
 }
 
-void SurfaceTable::add(const Scene& scene, const Mesh& mesh) {
-  check(scene, mesh);
-  first_of_mesh_.push_back(static_cast<std::uint32_t>(surfaces_.size()));
+void SurfaceTable::add_part(const Scene& scene, const std::vector<Mesh>& meshes) {
+  first_of_part_.push_back(static_cast<std::uint32_t>(surfaces_.size()));
+  for (const Mesh& mesh : meshes) {
+    check(scene, mesh);
+    add(mesh);
+  }
+}
+
+void SurfaceTable::add(const Mesh& mesh) {
   for (const auto& triangle : mesh.triangles) {
     Eigen::Matrix3d corners_m;
     Eigen::Matrix<double, 2, 3> texture_m;
@@ -90,15 +100,16 @@ void SurfaceTable::add(const Scene& scene, const Mesh& mesh) {
     Surface surface = make_surface(corners_m, texture_m);
     surface.material = static_cast<std::uint16_t>(mesh.material);
     surface.surface_class = mesh.surface_class;
+    const bool continues = !surfaces_.empty() && is_same(surfaces_.back(), surface);
+    flat_piece_.push_back(continues ? flat_piece_.back()
+                                    : static_cast<std::uint32_t>(surfaces_.size()));
     surfaces_.push_back(surface);
   }
 }
 
-void SurfaceTable::move_walker(std::size_t walker, const Eigen::Isometry3d& T_world_walker) {
-  const std::size_t begin = first_of_mesh_[walker_meshes_[walker]];
-  const std::size_t end = first_of_mesh_[walker_meshes_[walker + 1]];
-  for (std::size_t i = begin; i < end; ++i) {
-    surfaces_[i] = moved(walkers_at_origin_[i - at_rest_], T_world_walker);
+void SurfaceTable::move(std::size_t part, const Eigen::Isometry3d& T_world_part) {
+  for (std::uint32_t i = first_of_part_[part]; i < first_of_part_[part + 1]; ++i) {
+    surfaces_[i] = moved(as_built_[i], T_world_part);
   }
 }
 

@@ -27,31 +27,30 @@ Surface make_surface(const Eigen::Matrix3d& corners_m,
 /// The same surface after it was moved.
 Surface moved(const Surface& surface, const Eigen::Isometry3d& motion);
 
-/// All triangles of a scene under one running number: first the meshes at rest, then each walker's.
+/// All triangles of a scene under one running number, part by part: the meshes at rest are part 0,
+/// walker i is part i + 1.
 class SurfaceTable {
  public:
   /// Throws std::runtime_error naming the scene if a mesh has a corner index, material or texture
   /// coordinate that does not exist, or a corner that is not finite.
   explicit SurfaceTable(const Scene& scene);
 
-  /// Puts the triangles of `walker` where it is now.
-  void move_walker(std::size_t walker, const Eigen::Isometry3d& T_world_walker);
+  /// Puts the triangles of a walker's part where it is now.
+  void move(std::size_t part, const Eigen::Isometry3d& T_world_part);
 
-  const Surface& operator[](std::uint32_t index) const { return surfaces_[index]; }
-  std::size_t size() const { return surfaces_.size(); }
-  /// Number of the first triangle of a mesh; meshes are counted as triangles are.
-  std::uint32_t first_of_mesh(std::size_t mesh) const { return first_of_mesh_[mesh]; }
-  /// Number of a walker's first mesh.
-  std::size_t first_mesh_of_walker(std::size_t walker) const { return walker_meshes_[walker]; }
+  const Surface& operator[](std::uint32_t triangle) const { return surfaces_[triangle]; }
+  /// The first of the triangles that make one flat piece with this one and look the same.
+  std::uint32_t flat_piece(std::uint32_t triangle) const { return flat_piece_[triangle]; }
+  std::uint32_t first_of_part(std::size_t part) const { return first_of_part_[part]; }
 
  private:
-  void add(const Scene& scene, const Mesh& mesh);
+  void add_part(const Scene& scene, const std::vector<Mesh>& meshes);
+  void add(const Mesh& mesh);
 
   std::vector<Surface> surfaces_;
-  std::vector<std::uint32_t> first_of_mesh_;
-  std::vector<std::size_t> walker_meshes_;
-  std::vector<Surface> walkers_at_origin_;  ///< as built: the tail of surfaces_
-  std::size_t at_rest_ = 0;                 ///< how many come before the walkers'
+  std::vector<std::uint32_t> flat_piece_;
+  std::vector<std::uint32_t> first_of_part_;  ///< and, at the end, how many there are
+  std::vector<Surface> as_built_;             ///< before any part was moved
 };
 
 }  // namespace roomwise::simulator

@@ -13,9 +13,10 @@ namespace roomwise::simulator {
 /// the rows of a sensor that reads them one after the other. `row_ratio` is the row, 0..1.
 double lamp_factor(const ColorSensorParams& params, double t_s, double row_ratio);
 
-/// A colour camera with automatic exposure: gain, noise that the gain makes visible in the dark,
-/// 8 bits. A level is 255 sqrt(light), close to what cameras do, so that the noise of bright areas
-/// is the same at all levels. The same seed, frame numbers, times and views give the same bytes.
+/// A colour camera with automatic exposure: soft lens, gain, noise, 8 bits. Levels go with the root
+/// of the light, which makes photon noise, whose variance goes with the light, the same at all
+/// levels; it grows with the root of the gain, so pictures of dark places are noisy. The same seed,
+/// frame numbers, times and views give the same bytes.
 class ColorSensor {
  public:
   ColorSensor(const ColorSensorParams& params, std::uint32_t seed);
@@ -29,11 +30,12 @@ class ColorSensor {
  private:
   double wanted_gain(const KinectView& view) const;
   void steer(double wanted_gain);
+  void gather_light(const KinectView& view, int v);
 
   ColorSensorParams params_;
   std::uint32_t seed_ = 0;
-  double gain_ = 0.0;  ///< 0: no picture taken yet
-  std::vector<float> levels_;
+  double gain_ = 0.0;          ///< 0: no picture taken yet
+  std::vector<float> levels_;  ///< of one row: red, green, blue
 };
 
 }  // namespace roomwise::simulator

@@ -68,7 +68,7 @@ void DepthSensor::resize(const KinectView& view) {
 }
 
 void DepthSensor::fill_pattern() {
-  const auto sigma = static_cast<float>(params_.pattern_quanta);
+  const auto sigma = static_cast<float>(params_.depth_pattern_quanta);
   noise_->start(stream_key(seed_, 0, kPattern));
   for (auto out = pattern_.begin(); out != pattern_.end(); out += width_px_) {
     const float* row = noise_->next_row();
@@ -81,7 +81,7 @@ void DepthSensor::cast_shadow(const KinectView& view, double projector_m) {
   std::transform(view.inverse_depth_per_m.begin(), view.inverse_depth_per_m.end(),
                  disparity_.begin(), [quanta_m](float inverse) { return quanta_m * inverse; });
   const double px_per_quantum =
-      projector_m / params_.baseline_m / 8.0 * width_px_ / kMatchingWidth_px;
+      projector_m / params_.projector_m / 8.0 * width_px_ / kMatchingWidth_px;
   const auto width = static_cast<std::size_t>(width_px_);
   for (std::size_t begin = 0; begin < disparity_.size(); begin += width) {
     shadow_.apply(std::span(disparity_).subspan(begin, width), static_cast<float>(px_per_quantum));
@@ -89,8 +89,8 @@ void DepthSensor::cast_shadow(const KinectView& view, double projector_m) {
 }
 
 void DepthSensor::drop_patches(int v, std::uint32_t key) {
-  const auto limit =
-      static_cast<std::uint32_t>(std::min(4294967295.0, params_.dropout_ratio * 4294967296.0));
+  const auto limit = static_cast<std::uint32_t>(
+      std::min(4294967295.0, params_.depth_dropout_ratio * 4294967296.0));
   const auto patches = static_cast<std::uint32_t>(width_px_ / kPatch_px + 1);
   const std::uint32_t first = key + static_cast<std::uint32_t>(v / kPatch_px) * patches;
   const auto row = quanta_.begin() + static_cast<std::ptrdiff_t>(v) * width_px_;
@@ -105,9 +105,10 @@ void DepthSensor::drop_patches(int v, std::uint32_t key) {
 void DepthSensor::expose_row(const KinectView& view, int v, const Keys& keys) {
   const double quanta_m = params_.quanta_m();
   const RowLimits limits{
-      .quanta_least = static_cast<float>(std::max(1.0, quanta_m / params_.far_m)),
-      .quanta_most = static_cast<float>(std::min(kQuantaMax - 1.0, quanta_m / params_.near_m)),
-      .noise_quanta = static_cast<float>(params_.noise_quanta),
+      .quanta_least = static_cast<float>(std::max(1.0, quanta_m / params_.depth_far_m)),
+      .quanta_most =
+          static_cast<float>(std::min(kQuantaMax - 1.0, quanta_m / params_.depth_near_m)),
+      .noise_quanta = static_cast<float>(params_.depth_noise_quanta),
       .light_needed = static_cast<float>(params_.light_needed_ratio)};
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(v) * width_px_;
   ragged_.copy_row(disparity_, v, kEdgeQuanta, keys.ragged, row_.data());

@@ -14,7 +14,7 @@ namespace roomwise::simulator {
 /// the camera sees is known to cast shadow, and steps of less than a pixel of disparity cast none.
 class ProjectorShadow {
  public:
-  /// Makes room for rows of that many pixels.
+  /// Makes room for rows of that many pixels, at least one.
   void resize(int width_px);
 
   /// Sets to 0 every element of `row` in shadow. Elements are in units of which `px_per_unit` make
@@ -22,9 +22,8 @@ class ProjectorShadow {
   void apply(std::span<float> row, float px_per_unit);
 
  private:
-  bool has_step(std::span<const float> row, float step) const;
-
-  std::vector<float> nearest_;  ///< by column of the projector, from -kBeyond_px
+  std::vector<float> nearest_;  ///< by column of the projector: what it lights there
+  std::vector<std::int32_t> column_;
 };
 
 }  // namespace roomwise::simulator
