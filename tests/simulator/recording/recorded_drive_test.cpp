@@ -38,7 +38,7 @@ class RecordedDriveTest : public testing::Test {
     while (log.next(event)) {
       Message message{};
       if (event.channel != channel.name) continue;
-      EXPECT_TRUE(decode(event.data, message));
+      EXPECT_EQ(decode(event.data, message), DecodeResult::kOk);
       found.push_back(std::move(message));
     }
     return found;
