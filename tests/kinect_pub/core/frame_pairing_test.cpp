@@ -11,7 +11,7 @@ namespace {
 
 using Pairing = FramePairing<int, int>;
 constexpr std::int64_t kTolerance_us = 17'000;
-constexpr std::int64_t kPeriod_us = 33'333;
+constexpr std::int64_t kBetweenImages_us = 33'333;
 
 struct Event {
   bool is_depth;
@@ -74,8 +74,9 @@ RC_GTEST_PROP(FramePairing, StreamThatRunsAheadStillPairsEveryImage, ()) {
   Pairing pairing(kTolerance_us);
   std::vector<Event> events;
   for (int i = 0; i < 40 + ahead; ++i) {
-    if (i < 40) events.push_back({depth_first, i * kPeriod_us, i});
-    if (i >= ahead) events.push_back({!depth_first, (i - ahead) * kPeriod_us + 5'000, i - ahead});
+    if (i < 40) events.push_back({depth_first, i * kBetweenImages_us, i});
+    if (i >= ahead)
+      events.push_back({!depth_first, (i - ahead) * kBetweenImages_us + 5'000, i - ahead});
   }
   const auto pairs = pairs_of(pairing, events);
   RC_ASSERT(pairs.size() == 40U);
@@ -88,8 +89,8 @@ RC_GTEST_PROP(FramePairing, LostImageCostsOnlyItsPair, ()) {
   Pairing pairing(kTolerance_us);
   std::vector<Event> events;
   for (int i = 0; i < 20; ++i) {
-    if (i != lost || !depth_lost) events.push_back({true, i * kPeriod_us, i});
-    if (i != lost || depth_lost) events.push_back({false, i * kPeriod_us + 9'000, i});
+    if (i != lost || !depth_lost) events.push_back({true, i * kBetweenImages_us, i});
+    if (i != lost || depth_lost) events.push_back({false, i * kBetweenImages_us + 9'000, i});
   }
   const auto pairs = pairs_of(pairing, events);
   RC_ASSERT(pairs.size() == 19U);
