@@ -17,11 +17,13 @@ Solid column_at(double x_m, double y_m, double radius_m, double low_m, double hi
   return moved(cylinder(radius_m, low_m, high_m), {x_m, y_m, 0.0});
 }
 
+/// Legs set a little inward, as a carpenter would.
 void append_legs(Solid& solid, const Eigen::Vector3d& size_m, double leg_m, double high_m) {
+  constexpr double kInset_m = 0.02;
+  const Eigen::Vector2d out_m = (size_m.head<2>().array() - leg_m) / 2 - kInset_m;
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
-      append(solid, block_at(x * (size_m.x() - leg_m) / 2, y * (size_m.y() - leg_m) / 2, leg_m,
-                             leg_m, 0.0, high_m));
+      append(solid, block_at(x * out_m.x(), y * out_m.y(), leg_m, leg_m, 0.0, high_m));
     }
   }
 }

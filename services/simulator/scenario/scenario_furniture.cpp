@@ -86,7 +86,9 @@ void read_tables(TableReader& file, Scene& scene) {
     const Pose2 place = placement_of(table);
     const int material = material_of(table, scene);
     table.finish();
-    if (leg_m * 2 > size_m.head<2>().minCoeff()) table.refuse("leg_m", "at most half the table");
+    if (leg_m * 2 + 0.04 > size_m.head<2>().minCoeff()) {
+      table.refuse("leg_m", "less than half of the table");
+    }
     add_to(scene, moved(roomwise::simulator::table(size_m, top_m, leg_m), place), material,
            SurfaceClass::kObstacle);
   }
