@@ -14,7 +14,8 @@ struct FollowerGains {
 };
 
 /// Drives a robot along a plan from its true pose, for recordings that need no navigation: the plan
-/// runs in time, slower the farther the robot is from it, and the robot tracks the moving pose.
+/// runs in time, but waits for a robot that falls behind by more than a third of `patience_m`, and
+/// the robot tracks the moving pose.
 ///
 /// Source: Kanayama, Kimura, Miyazaki, Noguchi, "A stable tracking control method for an autonomous
 /// mobile robot" (ICRA 1990): v = v_r cos(e_h) + k_x e_x, w = w_r + v_r k_y e_y + k_h sin(e_h).
