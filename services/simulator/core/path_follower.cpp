@@ -18,7 +18,7 @@ PathFollower::PathFollower(DrivePlan plan, double wheel_base_m, const FollowerGa
 
 void PathFollower::advance(const Pose2& T_robot_goal, double dt_s) {
   const double away_m = T_robot_goal.position_m().norm();
-  plan_s_ += dt_s * std::clamp(1.0 - away_m / gains_.patience_m, 0.0, 1.0);
+  plan_s_ += dt_s * std::clamp(1.5 * (1.0 - away_m / gains_.patience_m), 0.0, 1.0);
   if (plan_s_ < plan_.duration_s()) return;
   settling_s_ += dt_s;
   const bool arrived = away_m < kArrived_m && std::abs(T_robot_goal.heading_rad) < kArrived_rad;

@@ -6,15 +6,16 @@ namespace roomwise::simulator {
 
 /// How hard a follower corrects, and what it may ask for.
 struct FollowerGains {
-  double along_per_s = 1.0;    ///< speed per metre behind the plan
-  double across_per_m2 = 6.0;  ///< turn per metre beside it and metre driven
-  double heading_per_s = 2.0;  ///< turn rate per radian of heading error
-  double patience_m = 0.3;     ///< so far behind, the plan waits
+  double along_per_s = 1.0;     ///< speed per metre behind the plan
+  double across_per_m2 = 16.0;  ///< turn per metre beside it and metre driven
+  double heading_per_s = 2.0;   ///< turn rate per radian of heading error
+  double patience_m = 0.3;      ///< so far behind, the plan waits
   double largest_wheel_mps = 0.5;
 };
 
 /// Drives a robot along a plan from its true pose, for recordings that need no navigation: the plan
-/// runs in time, slower the farther the robot is from it, and the robot tracks the moving pose.
+/// runs in time, but waits for a robot that falls behind by more than a third of `patience_m`, and
+/// the robot tracks the moving pose.
 ///
 /// Source: Kanayama, Kimura, Miyazaki, Noguchi, "A stable tracking control method for an autonomous
 /// mobile robot" (ICRA 1990): v = v_r cos(e_h) + k_x e_x, w = w_r + v_r k_y e_y + k_h sin(e_h).

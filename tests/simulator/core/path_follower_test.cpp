@@ -39,7 +39,7 @@ Ride ride(const Pose2& from, double left_ratio, double right_ratio) {
     const auto wheels = follower.step(result.end, kStep_s);
     result.end = driven(result.end, wheels, left_ratio, right_ratio);
     const Pose2 goal = follower.plan().at(follower.plan_time_s()).pose;
-    if (i > 1000) {  // 15 s to find the way
+    if (i > 1300) {  // 20 s to find the way
       result.farthest_m =
           std::max(result.farthest_m, (goal.position_m() - result.end.position_m()).norm());
     }
