@@ -4,7 +4,7 @@ A parameter struct (its name ends in Params) names its members in visit_fields b
     field("range_noise_m", range_noise_m, 1e-3, 1.0);
     field("thesis_range_min_m", slope.range_min_m, 0.0, 4.0);
 The second reaches into a group, a member that is a parameter struct itself: there a word before the
-member's name may tell the groups apart.
+member's name may tell the groups apart. A group may also name its own members: slope.visit_fields(field);
 """
 import collections
 import re
@@ -16,6 +16,7 @@ FIELD_CALL = re.compile(r'\bfield\s*\(\s*"([^"]*)"\s*,\s*([\w.]+)')
 STRUCT = re.compile(r"\bstruct\s+(\w*Params)\b[^;{()]*\{")
 MEMBER = re.compile(r"^\s*(double|float|int|bool|std::string)\s+(\w+)\s*(?:=[^;]*|\{[^;]*\})?;",
                     flags=re.M)
+GROUP_CALL = re.compile(r"\b(\w+)\.visit_fields\s*\(\s*field\s*\)")
 GROUP = re.compile(r"^\s*(\w+Params)\s+(\w+)\s*(?:\{\s*\})?;", flags=re.M)
 
 Struct = collections.namedtuple("Struct", "path line body")
@@ -73,9 +74,10 @@ def check_names(struct):
 
 def check_visits(name, struct, structs):
     visited = {match.group(2) for match in FIELD_CALL.finditer(struct.body)}
+    by_themselves = set(GROUP_CALL.findall(struct.body))
     groups = [("", struct)] + [(match.group(2) + ".", structs[match.group(1)])
                                for match in GROUP.finditer(struct.body)
-                               if match.group(1) in structs]
+                               if match.group(1) in structs and match.group(2) not in by_themselves]
     return [say(group, match, f"{prefix}{match.group(2)} is not in visit_fields of {name}: "
                               "nobody can set it")
             for prefix, group in groups for match in MEMBER.finditer(group.body)

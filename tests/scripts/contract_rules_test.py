@@ -102,6 +102,29 @@ struct EdgeParams {
     def test_a_group_may_have_a_word_before_its_names(self):
         self.assert_clean({self.path: self.GROUP})
 
+    def test_a_group_may_name_its_own_members_and_forget_none(self):
+        group = """
+struct JumpParams {
+  double range_min_m = 1.22;
+  int run_px = 3;
+  template <class Field>
+  void visit_fields(Field&& field) {
+    field("range_min_m", range_min_m, 0.0, 4.0);
+    field("run_px", run_px, 1, 9);
+  }
+};
+struct EdgeParams {
+  JumpParams jump;
+  template <class Field>
+  void visit_fields(Field&& field) {
+    jump.visit_fields(field);
+  }
+};
+"""
+        self.assert_clean({self.path: group})
+        self.assert_refused({self.path: group.replace("    jump.visit_fields(field);\n", "")},
+                            f"{self.path}:4: jump.run_px is not in visit_fields of EdgeParams")
+
     def test_a_group_that_changes_names_is_refused(self):
         self.assert_refused({self.path: self.GROUP.replace('"run_px"', '"run"')},
                             f'{self.path}:11: field "run" must be named as its member run_px')

@@ -32,10 +32,10 @@ class SpeedProfile {
   double first_;
   double last_;
   double acceleration_;
-  double peak_;
-  double up_s_;
-  double hold_s_;
-  double down_s_;
+  double peak_ = 0.0;
+  double up_s_ = 0.0;
+  double hold_s_ = 0.0;
+  double down_s_ = 0.0;
 };
 
 }  // namespace roomwise::simulator
