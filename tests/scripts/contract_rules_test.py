@@ -123,6 +123,7 @@ struct EdgeParams {
 """
         self.assert_clean({self.path: group})
         self.assert_refused({self.path: group.replace("    jump.visit_fields(field);\n", "")},
+                            f"{self.path}:3: jump.range_min_m is not in visit_fields of EdgeParams",
                             f"{self.path}:4: jump.run_px is not in visit_fields of EdgeParams")
 
     def test_a_group_that_changes_names_is_refused(self):
