@@ -110,6 +110,110 @@ void params_seeds(Corpus corpus) {
 }
 
 /// Two bytes of choices, then what hosts send.
+void scenario_seeds(Corpus corpus) {
+  corpus.add(R"([robot]
+at_m = [1.0, 2.0]
+heading_rad = 0.5
+[[path]]
+name = "loop1"
+corners_m = [[2.0, 2.0], [2.0, 0.0]]
+[[path]]
+name = "loop2"
+same_as = "loop1"
+rounds = 2
+[[fault]]
+name = "slip"
+at_s = 1
+[camera]
+pitch_down_rad = 0.1
+[light]
+lamp_level = 0.5
+[[lamp]]
+at_m = [0, 0, 2]
+power = [1, 1, 1]
+)");
+  corpus.add(R"([robot]
+at_m = [1, 2]
+[[material]]
+name = "a"
+pattern = "checker"
+color = [0.5, 0.5, 0.5]
+see_through = true
+[[pit]]
+least_m = [0, 0]
+largest_m = [1, 2]
+depth_m = 2
+material = "a"
+steps = 3
+tread_m = 0.3
+riser_m = 0.1
+steps_from = "west"
+[[floor]]
+least_m = [-3, -3]
+largest_m = [3, 3]
+material = "a"
+[[wall]]
+points_m = [[-3, -3], [3, -3], [3, 3]]
+closed = true
+material = "a"
+[[wall.opening]]
+leg = 1
+from_m = 1
+to_m = 2
+head_m = 2
+[[mesh]]
+corners_m = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+triangles = [[0, 1, 2]]
+at_m = [0, 0]
+material = "a"
+)");
+  corpus.add(R"([robot]
+at_m = [1, 2]
+[[material]]
+name = "a"
+[[box]]
+at_m = [0, 0]
+size_m = [1, 1, 1]
+material = "a"
+class = "wall"
+[[cylinder]]
+at_m = [0, 0]
+radius_m = 0.1
+height_m = 1
+material = "a"
+[[panel]]
+at_m = [0, 0]
+size_m = [1, 1]
+material = "a"
+[[table]]
+at_m = [0, 0]
+size_m = [1, 1, 1]
+material = "a"
+[[chair]]
+at_m = [0, 0]
+material = "a"
+[[sofa]]
+at_m = [0, 0]
+material = "a"
+[[shelf]]
+at_m = [0, 0]
+material = "a"
+boards = 3
+[[stairs]]
+at_m = [0, 0]
+steps = 3
+width_m = 1
+material = "a"
+[[walker]]
+name = "anna"
+way_m = [[-2, 0], [-2, 2]]
+speed_mps = 1
+legs = "a"
+body = "a"
+head = "a"
+)");
+}
+
 void create_seeds(Corpus corpus) {
   corpus.add(Bytes{0, 0, 128, 131, 148, 1, 100, 145, 0, 200, 0, 200, 142, 35, 150, 0, 150, 1, 173});
   corpus.add(Bytes{4, 6, 128, 132, 137, 255, 56, 1, 244, 149, 3, 7, 43, 20, 129, 7, 7, 133});
@@ -159,6 +263,7 @@ void make_seeds(const std::filesystem::path& folder) {
   params_seeds(Corpus(folder / "fuzz_params"));
   serial_seeds(Corpus(folder / "fuzz_oi_decoder"));
   create_seeds(Corpus(folder / "fuzz_create_emulator"));
+  scenario_seeds(Corpus(folder / "fuzz_scenario"));
   log_seeds(Corpus(folder / "fuzz_log_reader"), folder / "seed.lcmlog");
 }
 

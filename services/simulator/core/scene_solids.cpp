@@ -132,7 +132,7 @@ Solid box(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {
 
 Solid cylinder(double radius_m, double low_m, double high_m, int sides) {
   Solid solid;
-  const double side_m = 2.0 * std::numbers::pi * radius_m / sides;
+  const double side_m = 2.0 * radius_m * std::sin(std::numbers::pi / sides);
   for (int i = 0; i < sides; ++i) {
     const Eigen::Vector3d a = on_circle(radius_m, i, sides, low_m);
     const Eigen::Vector3d b = on_circle(radius_m, i + 1, sides, low_m);

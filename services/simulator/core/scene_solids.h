@@ -19,7 +19,7 @@ struct Solid {
 Solid box(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);
 
 /// An upright cylinder around the z axis: closed, normals outward, `sides` >= 3 flat faces whose
-/// corners lie on the circle. Texture: arc length and height.
+/// corners lie on the circle. Texture: way along the faces and height.
 Solid cylinder(double radius_m, double low_m, double high_m, int sides = 24);
 
 /// A rectangle at height z facing up (or down), less the axis-aligned rectangles `holes` (least and
