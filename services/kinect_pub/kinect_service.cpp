@@ -47,7 +47,8 @@ Capture::Settings settings_of(const kinect::KinectParams& params) {
                      .recording_is_registered = params.recording_is_registered},
           .clock = {.window_us = microseconds(params.clock_window_s),
                     .exposure_delay_us = microseconds(params.exposure_delay_s)},
-          .silence_max = Duration(microseconds(params.silence_max_s))};
+          .silence_max = Duration(microseconds(params.silence_max_s)),
+          .start_max = Duration(microseconds(params.start_max_s))};
 }
 
 std::int8_t state_of(State state) {

@@ -114,7 +114,7 @@ TEST_F(FreenectTest, ClientThatAsksForDisparityGetsTheSensorsOwnWords) {
 
 TEST_F(FreenectTest, ColourThatNeverComesIsSaid) {
   ROOMWISE_NEED_DATA("fakenect_dump");
-  run_.start_kinect_pub("device = 'freenect://0'\nregister_depth = true", fakenect());
+  run_.start_kinect_pub("device = 'freenect://0'\nstart_max_s = 0.3", fakenect());
   const auto status = run_.status([](const device_status_t& s) { return !s.last_error.empty(); });
   ASSERT_TRUE(status) << run_.kinect_pub().output();
   EXPECT_EQ(status->last_error, "freenect://0: sends no pair of images");

@@ -14,9 +14,8 @@
 namespace roomwise {
 namespace {
 
-/// Made cameras show the same 60 frames again and again.
 RgbdFrame shown_at(std::int64_t device_time_us, const simulator::FrameRequest& request) {
-  return made_frame(made_number(device_time_us) % 60, request);
+  return made_frame(made_number(device_time_us) % kMadeFrames, request);
 }
 
 RgbdFrame decoded(const kinect_frame_t& message) {
@@ -120,7 +119,7 @@ TEST_F(KinectPubTest, CameraMountAndOwnIntrinsicsGoIntoEveryFrame) {
 TEST_F(KinectPubTest, CameraThatDiesIsMissedAndUsedAgainWhenItReturns) {
   run_.start_camera();
   run_.start_kinect_pub("");
-  ASSERT_EQ(run_.frames(3).size(), 3U) << run_.kinect_pub().output();
+  ASSERT_EQ(run_.frames(40).size(), 40U) << run_.kinect_pub().output();
   run_.kill_camera();
   const auto lost = run_.status_of_state(device_status_t::STATE_LOST);
   ASSERT_TRUE(lost) << run_.kinect_pub().output();
@@ -217,7 +216,7 @@ class KinectPubRecordingTest : public KinectPubTest {
 TEST_F(KinectPubRecordingTest, RecordingPlaysBackTheFramesItWasMadeFrom) {
   record(40);
   std::map<std::vector<std::uint16_t>, int> known;
-  for (int i = 0; i < 60; ++i) known[made_frame(i).depth.steps] = i;
+  for (int i = 0; i < kMadeFrames; ++i) known[made_frame(i).depth.steps] = i;
   run_.start_kinect_pub("device = '" + oni_ + "'\nloop_recording = true");
   const auto messages = run_.frames(30);
   ASSERT_EQ(messages.size(), 30U) << run_.kinect_pub().output();

@@ -15,6 +15,7 @@ struct KinectParams {
   int depth_max_mm = 10000;            ///< larger readings (65535 is -1) are none
   double pair_tolerance_s = 0.017;     ///< half a frame: depth and colour farther apart are no pair
   double silence_max_s = 1.0;          ///< no pair for so long means that the device is lost
+  double start_max_s = 5.0;            ///< the same before its first pair: sensors start slowly
   double clock_window_s = 10.0;        ///< over which the smallest delay is looked for
   double exposure_delay_s = 0.0;       ///< least time from mid-exposure to arrival, if measured
   bool loop_recording = false;         ///< play a recording again and again
@@ -48,6 +49,7 @@ struct KinectParams {
     field("depth_max_mm", depth_max_mm, 1, 65534);
     field("pair_tolerance_s", pair_tolerance_s, 0.0, 1.0);
     field("silence_max_s", silence_max_s, 0.1, 60.0);
+    field("start_max_s", start_max_s, 0.1, 60.0);
     field("clock_window_s", clock_window_s, 0.1, 3600.0);
     field("exposure_delay_s", exposure_delay_s, 0.0, 1.0);
     field("loop_recording", loop_recording);

@@ -72,16 +72,18 @@ void Capture::stream_from(OpenNiCamera& camera) {
   using std::chrono::steady_clock;
   CapturedFrame frame;
   auto last_pair = steady_clock::now();
+  Duration patience = settings_.start_max;
   while (!stopping_) {
     const OpenNiCamera::Read result = camera.read(kReadPatience, frame);
     account(camera);
     if (result == OpenNiCamera::Read::kEnded) return set_state(State::kEnded, "");
     if (result == OpenNiCamera::Read::kPair) {
       last_pair = steady_clock::now();
+      patience = settings_.silence_max;
       hand_over(frame);
       continue;
     }
-    const bool silent = steady_clock::now() - last_pair > settings_.silence_max;
+    const bool silent = steady_clock::now() - last_pair > patience;
     if (result != OpenNiCamera::Read::kLost && !silent) continue;
     const std::string& uri = camera.facts().uri;
     count_loss();

@@ -38,6 +38,7 @@ class Capture {
     CameraRequest camera;
     kinect::ClockMapping::Params clock;
     Duration silence_max{1'000'000};  ///< without a pair for so long the device is lost
+    Duration start_max{5'000'000};    ///< the same before its first pair
   };
 
   /// `now` and `changed` are called from capture's own thread: the first for the time a frame

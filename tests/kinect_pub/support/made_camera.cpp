@@ -21,7 +21,7 @@ class MadeFrames {
     if (frames_.empty() || !(request == request_)) {
       request_ = request;
       frames_.clear();
-      for (int i = 0; i < 60; ++i) frames_.push_back(made_frame(i, request));
+      for (int i = 0; i < kMadeFrames; ++i) frames_.push_back(made_frame(i, request));
     }
     return frames_[static_cast<std::size_t>(number) % frames_.size()];
   }

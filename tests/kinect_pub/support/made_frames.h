@@ -13,6 +13,9 @@ namespace roomwise {
 /// frames, and no frame and its mirror image, are alike. Same arguments, same frame.
 RgbdFrame made_frame(std::int64_t number, const simulator::FrameRequest& request = {});
 
+/// The made camera shows so many different frames, again and again.
+inline constexpr std::int64_t kMadeFrames = 12;
+
 /// When the made camera takes frame `number`, on its own clock: at 30 Hz, from 5 s on.
 std::int64_t made_device_time_us(std::int64_t number);
 

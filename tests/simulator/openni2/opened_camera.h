@@ -13,6 +13,13 @@ inline std::string uri_of(const std::filesystem::path& door) {
   return "roomwise-sim://" + door.string();
 }
 
+/// Starts OpenNI2 for the life of the process. It is never shut down: it would deadlock if a door
+/// went at that moment.
+inline void start_openni() {
+  static const openni::Status status = openni::OpenNI::initialize();
+  ASSERT_EQ(status, openni::STATUS_OK) << openni::OpenNI::getExtendedError();
+}
+
 /// A device with both streams, as a client of OpenNI2 sees it. Streams go before their device.
 struct OpenedCamera {
   explicit OpenedCamera(const std::string& uri) {

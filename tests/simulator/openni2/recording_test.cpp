@@ -12,8 +12,7 @@ namespace {
 
 class RecordingTest : public ::testing::Test {
  protected:
-  RecordingTest() { EXPECT_EQ(openni::OpenNI::initialize(), openni::STATUS_OK); }
-  ~RecordingTest() override { openni::OpenNI::shutdown(); }
+  static void SetUpTestSuite() { start_openni(); }
 
   void record(int images) {
     OpenedCamera camera(uri_of(door_));

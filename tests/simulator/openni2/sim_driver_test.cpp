@@ -15,12 +15,16 @@ namespace {
 
 class SimDriverTest : public ::testing::Test {
  protected:
-  SimDriverTest() {
-    ::setenv("ROOMWISE_SIM_KINECT", path_.c_str(), 1);
-    EXPECT_EQ(openni::OpenNI::initialize(), openni::STATUS_OK);
+  static void SetUpTestSuite() {
+    ::setenv("ROOMWISE_SIM_KINECT", default_door().c_str(), 1);
+    start_openni();
   }
-  // Doors outlive OpenNI2: one that goes while it shuts down would deadlock it.
-  ~SimDriverTest() override { openni::OpenNI::shutdown(); }
+
+  /// Where the driver looks for a camera to list: told before it is loaded, the same for all tests.
+  static std::filesystem::path default_door() {
+    static const ScratchFolder folder;
+    return folder.path() / "kinect";
+  }
 
   const FedDoor& serve() {
     door_ = std::make_unique<FedDoor>(path_);
@@ -31,7 +35,7 @@ class SimDriverTest : public ::testing::Test {
     openni::Array<openni::DeviceInfo> devices;
     openni::OpenNI::enumerateDevices(&devices);
     for (int i = 0; i < devices.getSize(); ++i) {
-      if (devices[i].getUri() == uri_of(path_)) return true;
+      if (devices[i].getUri() == uri_of(default_door())) return true;
     }
     return false;
   }
@@ -183,11 +187,11 @@ TEST_F(SimDriverTest, FrameSyncPairsByNumber) {
   camera.device.setDepthColorSyncEnabled(false);
 }
 
-/// Waits for the comings and goings of a device.
+/// Waits for the comings and goings of one device.
 class PlugListener : private openni::OpenNI::DeviceConnectedListener,
                      private openni::OpenNI::DeviceDisconnectedListener {
  public:
-  PlugListener() {
+  explicit PlugListener(std::string uri) : uri_(std::move(uri)) {
     openni::OpenNI::addDeviceConnectedListener(this);
     openni::OpenNI::addDeviceDisconnectedListener(this);
   }
@@ -203,13 +207,15 @@ class PlugListener : private openni::OpenNI::DeviceConnectedListener,
   }
 
  private:
-  void onDeviceConnected(const openni::DeviceInfo*) override { count(connected_); }
-  void onDeviceDisconnected(const openni::DeviceInfo*) override { count(disconnected_); }
-  void count(int& counter) {
+  void onDeviceConnected(const openni::DeviceInfo* info) override { count(info, connected_); }
+  void onDeviceDisconnected(const openni::DeviceInfo* info) override { count(info, disconnected_); }
+  void count(const openni::DeviceInfo* info, int& counter) {
+    if (info->getUri() != uri_) return;
     const std::lock_guard lock(mutex_);
     ++counter;
     changed_.notify_all();
   }
+  const std::string uri_;
   std::mutex mutex_;
   std::condition_variable changed_;
   int connected_ = 0;
@@ -217,9 +223,9 @@ class PlugListener : private openni::OpenNI::DeviceConnectedListener,
 };
 
 TEST_F(SimDriverTest, IsListedWhileASimulatorServesTheDefaultDoor) {
-  PlugListener listener;
+  PlugListener listener(uri_of(default_door()));
   EXPECT_FALSE(is_listed());
-  serve();
+  door_ = std::make_unique<FedDoor>(default_door());
   ASSERT_TRUE(listener.wait_until(1, 0));
   EXPECT_TRUE(is_listed());
   door_.reset();
@@ -228,8 +234,8 @@ TEST_F(SimDriverTest, IsListedWhileASimulatorServesTheDefaultDoor) {
 }
 
 TEST_F(SimDriverTest, UnpluggedCameraGoesSilentAndOpensAgainOncePluggedIn) {
-  PlugListener listener;
   const std::filesystem::path other = folder_.path() / "another";
+  PlugListener listener(uri_of(other));
   door_ = std::make_unique<FedDoor>(other);
   {
     OpenedCamera camera(uri_of(other));
