@@ -75,13 +75,9 @@ void describe(const FrameDoorDescription& description, door::Header& header) {
   header.magic = door::kMagic;
 }
 
-bool is_offered(int width_px, int height_px) {
-  return (width_px == 640 && height_px == 480) || (width_px == 320 && height_px == 240);
-}
-
 void check(const RgbdFrame& frame) {
-  if (!is_offered(frame.depth.width_px, frame.depth.height_px) ||
-      !is_offered(frame.color.width_px, frame.color.height_px)) {
+  if (!door::is_offered(frame.depth.width_px, frame.depth.height_px) ||
+      !door::is_offered(frame.color.width_px, frame.color.height_px)) {
     throw std::invalid_argument("frame door: images must be 640 x 480 or 320 x 240");
   }
   const auto pixels = [](int width_px, int height_px) {

@@ -67,4 +67,9 @@ struct Layout {
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 
+/// The image sizes that the door has room for.
+constexpr bool is_offered(int width_px, int height_px) {
+  return (width_px == 640 && height_px == 480) || (width_px == 320 && height_px == 240);
+}
+
 }  // namespace roomwise::simulator::door
