@@ -20,7 +20,7 @@
 namespace roomwise::create {
 namespace {
 
-std::atomic<bool> is_over{false};
+std::atomic<bool> was_told_to_stop{false};
 
 struct Request {
   std::filesystem::path params_path;
@@ -98,7 +98,7 @@ std::string as_toml(const WheelGeometry& geometry) {
 
 void calibrate(const Request& request) {
   const auto params = load_params<CreateParams>(request.params_path);
-  CalibrationDrive drive(params, is_over);
+  CalibrationDrive drive(params, was_told_to_stop);
   const StraightRun straight = run_straight(drive, request.distance_m);
   const SpinRun spin = run_spin(drive, request.turns);
   const auto geometry = calibrated(params.wheels, straight, spin);
@@ -129,7 +129,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   struct sigaction action {};
-  action.sa_handler = [](int) { roomwise::create::is_over = true; };
+  action.sa_handler = [](int) { roomwise::create::was_told_to_stop = true; };
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
   return roomwise::create::run(argc, argv);
 } catch (const std::exception& error) {

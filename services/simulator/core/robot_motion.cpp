@@ -37,7 +37,7 @@ RobotMotion::RobotMotion(const RobotParams& params, double nominal_base_m,
     : params_(params),
       nominal_base_m_(nominal_base_m),
       T_world_robot_(T_world_robot),
-      random_(std::move(random)) {}
+      random_(random) {}
 
 void RobotMotion::step(const GroundPlan& plan, const LeftRight<double>& command_mps, double dt_s) {
   wheels_.left.dropped = hangs(plan, nominal_base_m_ / 2.0);

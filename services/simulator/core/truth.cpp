@@ -24,13 +24,13 @@ constexpr int kPole = 5;
 
 using Vector = Eigen::Vector2d;
 
-double cross(const Vector& a, const Vector& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross_product(const Vector& a, const Vector& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool contains(const Block& block, const Vector& p_m) {
   const auto& corners = block.corners_m;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector& a = corners[i];
-    if (cross(corners[(i + 1) % corners.size()] - a, p_m - a) <= 0.0) return false;
+    if (cross_product(corners[(i + 1) % corners.size()] - a, p_m - a) <= 0.0) return false;
   }
   return true;
 }
@@ -190,10 +190,10 @@ void append_crossings(const Block& one, const Block& other, std::vector<Vector>&
     for (std::size_t j = 0; j < other.corners_m.size(); ++j) {
       const Vector& c = other.corners_m[j];
       const Vector cd = other.corners_m[(j + 1) % other.corners_m.size()] - c;
-      const double area = cross(ab, cd);
+      const double area = cross_product(ab, cd);
       if (std::abs(area) < 1e-12) continue;
-      const double along_ab = cross(c - a, cd) / area;
-      const double along_cd = cross(c - a, ab) / area;
+      const double along_ab = cross_product(c - a, cd) / area;
+      const double along_cd = cross_product(c - a, ab) / area;
       if (along_ab < 0.0 || along_ab > 1.0 || along_cd < 0.0 || along_cd > 1.0) continue;
       crossings_m.push_back(a + along_ab * ab);
     }

@@ -105,7 +105,7 @@ std::filesystem::path default_frame_door() {
   return "/dev/shm/roomwise-" + std::to_string(::getuid()) + "/kinect";
 }
 
-FrameDoor::FrameDoor(std::filesystem::path path, const FrameDoorDescription& description)
+FrameDoor::FrameDoor(const std::filesystem::path& path, const FrameDoorDescription& description)
     : path_(std::filesystem::absolute(path)) {
   const std::filesystem::path folder = path_.parent_path();
   std::error_code failed;

@@ -27,7 +27,7 @@ class FrameDoor {
  public:
   /// Makes the folder if need be. Throws std::runtime_error naming the path if that fails or
   /// another living process has a door there; one left behind by a killed process is replaced.
-  FrameDoor(std::filesystem::path path, const FrameDoorDescription& description);
+  FrameDoor(const std::filesystem::path& path, const FrameDoorDescription& description);
   FrameDoor(const FrameDoor&) = delete;
   FrameDoor& operator=(const FrameDoor&) = delete;
   ~FrameDoor();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -60,7 +61,7 @@ Number number_in(std::string_view text, std::string_view value, Number smallest,
 
 Duration duration_in(std::string_view text, std::string_view value) {
   const double duration_s = number_in(text, value, 0.0, 1e6);
-  return Duration(static_cast<std::int64_t>(duration_s * 1e6 + 0.5));
+  return Duration(std::llround(duration_s * 1e6));
 }
 
 LeftRight<bool> sides_in(std::string_view text, std::string_view value) {

@@ -52,7 +52,8 @@ bool is_over(const OiCommand& wait, const WaitInputs& since, const WaitInputs& i
     case op::kWaitAngle:
       return has_gone(inputs.angle_deg - since.angle_deg, wait.word(0));
     default: {  // a negative event waits for its end
-      const int event = static_cast<std::int8_t>(wait.arguments[0]);
+      const int byte = wait.arguments[0];
+      const int event = byte < 128 ? byte : byte - 256;
       return has_event(std::abs(event), body, inputs.mode) == (event > 0);
     }
   }

@@ -10,7 +10,7 @@
 namespace roomwise::simulator {
 namespace {
 
-enum Purpose : std::uint32_t { kColorNoise = 16 };
+enum ColorPurpose : std::uint32_t { kColorNoise = 16 };
 constexpr double kFlickerBars = 1.5;      // over the height of the image
 constexpr double kFlickerBarsPerS = 0.7;  // what is left of the difference of 100 and 30 Hz
 

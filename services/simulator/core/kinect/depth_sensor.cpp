@@ -12,12 +12,12 @@ namespace {
 constexpr int kMatchingWidth_px = 640;  // of the grid that disparity is measured on
 constexpr int kMatchingWindow_px = 9;
 constexpr int kBlindRight_px = 8;    // columns at the right border that a Kinect never measures
-constexpr int kPatch_px = 4;         // side of what random dropouts take
+constexpr int kDropout_px = 4;       // side of what random dropouts take
 constexpr float kEdgeQuanta = 8.0F;  // from here on a difference is an edge to window matching
 /// How the light needed differs from place to place, per unit of noise: ragged rims of dark areas.
 constexpr float kLightSpread = 0.35F;
 
-enum Purpose : std::uint32_t { kNoise, kPattern, kRagged, kDropout };
+enum DepthPurpose : std::uint32_t { kNoise, kPattern, kRagged, kDropout };
 
 struct RowLimits {
   float quanta_least;
@@ -91,13 +91,13 @@ void DepthSensor::cast_shadow(const KinectView& view, double projector_m) {
 void DepthSensor::drop_patches(int v, std::uint32_t key) {
   const auto limit = static_cast<std::uint32_t>(
       std::min(4294967295.0, params_.depth_dropout_ratio * 4294967296.0));
-  const auto patches = static_cast<std::uint32_t>(width_px_ / kPatch_px + 1);
-  const std::uint32_t first = key + static_cast<std::uint32_t>(v / kPatch_px) * patches;
+  const auto patches = static_cast<std::uint32_t>(width_px_ / kDropout_px + 1);
+  const std::uint32_t first = key + static_cast<std::uint32_t>(v / kDropout_px) * patches;
   const auto row = quanta_.begin() + static_cast<std::ptrdiff_t>(v) * width_px_;
   for (std::uint32_t i = 0; i < patches; ++i) {
     if (hash32(first + i) >= limit) continue;
-    const int begin = static_cast<int>(i) * kPatch_px;
-    const int end = std::min(begin + kPatch_px, width_px_);
+    const int begin = static_cast<int>(i) * kDropout_px;
+    const int end = std::min(begin + kDropout_px, width_px_);
     if (begin < end) std::fill(row + begin, row + end, std::uint16_t{0});
   }
 }
