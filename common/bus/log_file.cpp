@@ -121,10 +121,10 @@ void LogWriter::write(const LogEvent& event) {
   out = put_big_endian(out, static_cast<std::uint32_t>(event.channel.size()));
   put_big_endian(out, static_cast<std::uint32_t>(event.data.size()));
   std::FILE* file = file_.get();
-  const bool written =
-      std::fwrite(header.data(), header.size(), 1, file) == 1 &&
-      std::fwrite(event.channel.data(), event.channel.size(), 1, file) == 1 &&
-      std::fwrite(event.data.data(), 1, event.data.size(), file) == event.data.size();
+  const bool written = std::fwrite(header.data(), header.size(), 1, file) == 1 &&
+                       std::fwrite(event.channel.data(), event.channel.size(), 1, file) == 1 &&
+                       (event.data.empty() ||  // fwrite takes no null pointer, not even for nothing
+                        std::fwrite(event.data.data(), event.data.size(), 1, file) == 1);
   if (!written) refuse();
 }
 
