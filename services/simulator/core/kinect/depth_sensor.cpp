@@ -12,12 +12,12 @@ namespace {
 constexpr int kMatchingWidth_px = 640;  // of the grid that disparity is measured on
 constexpr int kMatchingWindow_px = 9;
 constexpr int kBlindRight_px = 8;    // columns at the right border that a Kinect never measures
-constexpr int kPatch_px = 4;         // side of what random dropouts take
+constexpr int kDropout_px = 4;       // side of what random dropouts take
 constexpr float kEdgeQuanta = 8.0F;  // from here on a difference is an edge to window matching
 /// How the light needed differs from place to place, per unit of noise: ragged rims of dark areas.
 constexpr float kLightSpread = 0.35F;
 
-enum Purpose : std::uint32_t { kNoise, kPattern, kRagged, kDropout };
+enum DepthPurpose : std::uint32_t { kNoise, kPattern, kRagged, kDropout };
 
 struct RowLimits {
   float quanta_least;
@@ -32,7 +32,8 @@ void measure_row(const float* row, const float* light, const float* noise, const
                  const RowLimits& limits, int width, std::uint16_t* quanta) {
   for (int u = 0; u < width; ++u) {
     const float measured = row[u] + limits.noise_quanta * noise[u] + pattern[u];
-    const float needed = limits.light_needed * (1.0F + kLightSpread * noise[u]);
+    const float spread = kLightSpread * noise[u];
+    const float needed = limits.light_needed * (spread > -0.5F ? 1.0F + spread : 0.5F);
     const int is_read =
         static_cast<int>(row[u] > 0.0F) & static_cast<int>(measured >= limits.quanta_least) &
         static_cast<int>(measured <= limits.quanta_most) & static_cast<int>(light[u] >= needed);
@@ -76,12 +77,11 @@ void DepthSensor::fill_pattern() {
   }
 }
 
-void DepthSensor::cast_shadow(const KinectView& view, double projector_m) {
+void DepthSensor::cast_shadow(const KinectView& view, double projector_px_m) {
   const auto quanta_m = static_cast<float>(params_.quanta_m());
   std::transform(view.inverse_depth_per_m.begin(), view.inverse_depth_per_m.end(),
                  disparity_.begin(), [quanta_m](float inverse) { return quanta_m * inverse; });
-  const double px_per_quantum =
-      projector_m / params_.projector_m / 8.0 * width_px_ / kMatchingWidth_px;
+  const double px_per_quantum = projector_px_m / params_.quanta_m();
   const auto width = static_cast<std::size_t>(width_px_);
   for (std::size_t begin = 0; begin < disparity_.size(); begin += width) {
     shadow_.apply(std::span(disparity_).subspan(begin, width), static_cast<float>(px_per_quantum));
@@ -91,13 +91,13 @@ void DepthSensor::cast_shadow(const KinectView& view, double projector_m) {
 void DepthSensor::drop_patches(int v, std::uint32_t key) {
   const auto limit = static_cast<std::uint32_t>(
       std::min(4294967295.0, params_.depth_dropout_ratio * 4294967296.0));
-  const auto patches = static_cast<std::uint32_t>(width_px_ / kPatch_px + 1);
-  const std::uint32_t first = key + static_cast<std::uint32_t>(v / kPatch_px) * patches;
+  const auto patches = static_cast<std::uint32_t>(width_px_ / kDropout_px + 1);
+  const std::uint32_t first = key + static_cast<std::uint32_t>(v / kDropout_px) * patches;
   const auto row = quanta_.begin() + static_cast<std::ptrdiff_t>(v) * width_px_;
   for (std::uint32_t i = 0; i < patches; ++i) {
     if (hash32(first + i) >= limit) continue;
-    const int begin = static_cast<int>(i) * kPatch_px;
-    const int end = std::min(begin + kPatch_px, width_px_);
+    const int begin = static_cast<int>(i) * kDropout_px;
+    const int end = std::min(begin + kDropout_px, width_px_);
     if (begin < end) std::fill(row + begin, row + end, std::uint16_t{0});
   }
 }
@@ -119,10 +119,10 @@ void DepthSensor::expose_row(const KinectView& view, int v, const Keys& keys) {
   std::fill_n(quanta_.begin() + begin + width_px_ - blind_px, blind_px, std::uint16_t{0});
 }
 
-void DepthSensor::expose(const KinectView& view, double projector_m, std::int64_t frame,
+void DepthSensor::expose(const KinectView& view, double projector_px_m, std::int64_t frame,
                          DepthImage& out) {
   resize(view);
-  cast_shadow(view, projector_m);
+  cast_shadow(view, projector_px_m);
   const Keys keys{stream_key(seed_, frame, kRagged), stream_key(seed_, frame, kDropout)};
   noise_->start(stream_key(seed_, frame, kNoise));
   for (int v = 0; v < height_px_; ++v) expose_row(view, v, keys);
