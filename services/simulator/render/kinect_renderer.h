@@ -40,7 +40,7 @@ class KinectRenderer {
   struct Level {
     std::vector<std::uint32_t> triangles;
     std::vector<float> from_m;
-    std::vector<float> planes[6];
+    std::vector<float> planes[5];
     ViewRow row();
   };
 

@@ -11,7 +11,6 @@ inline KinectView even_view(double depth_m, int width_px = 640, int height_px = 
   view.infrared_ratio.assign(view.size(), static_cast<float>(1.0 / (depth_m * depth_m)));
   view.surface_class.assign(view.size(), 0);
   view.material.assign(view.size(), 0);
-  view.cos_incidence.assign(view.size(), 1.0F);
   for (auto* light : {&view.red, &view.green, &view.blue}) light->assign(view.size(), 0.25F);
   return view;
 }

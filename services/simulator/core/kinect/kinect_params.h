@@ -7,8 +7,8 @@ namespace roomwise::simulator {
 struct DepthSensorParams {
   double depth_focal_px = 585.0;  ///< of the 640 px grid, and of depth images as they are measured
   double projector_m = 0.075;     ///< the projector sits that far to the right of the camera
-  double depth_noise_quanta = 0.36;    ///< sigma, another one in every frame
-  double depth_pattern_quanta = 0.30;  ///< sigma of the error that stays at its pixel in all frames
+  double depth_noise_quanta = 0.34;    ///< sigma, another one in every frame
+  double depth_pattern_quanta = 0.40;  ///< sigma of the error that stays at its pixel in all frames
   double ragged_px = 2.0;              ///< how far window matching misplaces an edge, at most
   double depth_near_m = 0.5;           ///< nothing is seen nearer than this
   double depth_far_m = 8.0;            ///< nor beyond
