@@ -40,16 +40,11 @@ class DepthSensor {
   std::span<const std::uint16_t> quanta() const { return quanta_; }
 
  private:
-  struct Keys {
-    std::uint32_t ragged;
-    std::uint32_t dropout;
-  };
-
   void resize(const KinectView& view);
   void fill_pattern();
   void cast_shadow(const KinectView& view, double projector_px_m);
-  void expose_row(const KinectView& view, int v, const Keys& keys);
-  void drop_patches(int v, std::uint32_t key);
+  void expose_row(const KinectView& view, int v, std::uint32_t key);
+  void drop_patches(std::uint32_t key);
 
   DepthSensorParams params_;
   std::uint32_t seed_ = 0;

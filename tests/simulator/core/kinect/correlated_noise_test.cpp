@@ -35,18 +35,16 @@ double mean_product(const std::vector<float>& image, int du, int dv) {
 }
 
 TEST(CorrelatedNoise, IsOfUnitVarianceAndAlikeOverItsWindow) {
-  constexpr int kWindow_px = 9;
-  CorrelatedNoise noise(kNoiseWidth_px, kWindow_px);
+  CorrelatedNoise noise(kNoiseWidth_px, 9, 7);
   const std::vector<float> image = noise_image(noise, 7);
   for (int lag = 0; lag < 12; ++lag) {
-    const double expected = std::max(0.0, 1.0 - lag / static_cast<double>(kWindow_px));
-    EXPECT_NEAR(mean_product(image, lag, 0), expected, 0.06) << lag;
-    EXPECT_NEAR(mean_product(image, 0, lag), expected, 0.06) << lag;
+    EXPECT_NEAR(mean_product(image, lag, 0), std::max(0.0, 1.0 - lag / 9.0), 0.06) << lag;
+    EXPECT_NEAR(mean_product(image, 0, lag), std::max(0.0, 1.0 - lag / 7.0), 0.06) << lag;
   }
 }
 
 TEST(CorrelatedNoise, IsGaussianInItsTails) {
-  CorrelatedNoise noise(kNoiseWidth_px, 9);
+  CorrelatedNoise noise(kNoiseWidth_px, 9, 9);
   const std::vector<float> image = noise_image(noise, 3);
   const auto beyond = [&](float limit) {
     const auto count = std::count_if(image.begin(), image.end(),
@@ -58,7 +56,7 @@ TEST(CorrelatedNoise, IsGaussianInItsTails) {
 }
 
 TEST(CorrelatedNoise, TheSameKeyGivesTheSameImageWhateverCameBefore) {
-  CorrelatedNoise noise(kNoiseWidth_px, 5);
+  CorrelatedNoise noise(kNoiseWidth_px, 5, 5);
   const std::vector<float> first = noise_image(noise, 11);
   const std::vector<float> other = noise_image(noise, 12);
   EXPECT_NE(first, other);
@@ -66,9 +64,9 @@ TEST(CorrelatedNoise, TheSameKeyGivesTheSameImageWhateverCameBefore) {
 }
 
 TEST(CorrelatedNoise, RefusesWindowsItCannotSum) {
-  EXPECT_THROW(CorrelatedNoise(10, 0), std::invalid_argument);
-  EXPECT_THROW(CorrelatedNoise(10, 65), std::invalid_argument);
-  EXPECT_THROW(CorrelatedNoise(0, 9), std::invalid_argument);
+  EXPECT_THROW(CorrelatedNoise(10, 0, 7), std::invalid_argument);
+  EXPECT_THROW(CorrelatedNoise(10, 9, 65), std::invalid_argument);
+  EXPECT_THROW(CorrelatedNoise(0, 9, 7), std::invalid_argument);
 }
 
 }  // namespace
