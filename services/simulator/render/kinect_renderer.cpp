@@ -59,12 +59,8 @@ void pass_on_color(const Material& material, const Run& run, const ViewRow& seen
 
 ViewRow row_of(KinectView& view, int v) {
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(v) * view.width_px;
-  return {view.inverse_depth_per_m.data() + begin,
-          view.infrared_ratio.data() + begin,
-          view.cos_incidence.data() + begin,
-          view.red.data() + begin,
-          view.green.data() + begin,
-          view.blue.data() + begin};
+  return {view.inverse_depth_per_m.data() + begin, view.infrared_ratio.data() + begin,
+          view.red.data() + begin, view.green.data() + begin, view.blue.data() + begin};
 }
 
 }  // namespace
@@ -75,8 +71,7 @@ PinholeCamera kinect_camera(double focal_px, int width_px, int height_px) {
 }
 
 ViewRow KinectRenderer::Level::row() {
-  return {planes[0].data(), planes[1].data(), planes[2].data(),
-          planes[3].data(), planes[4].data(), planes[5].data()};
+  return {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data(), planes[4].data()};
 }
 
 KinectRenderer::KinectRenderer(const Scene& scene)

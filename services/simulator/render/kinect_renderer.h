@@ -17,7 +17,8 @@ namespace roomwise::simulator {
 /// Embree says which triangle a pixel shows; rows are then cut into runs of the same triangle and
 /// each run is filled in closed form from the triangle's plane. Pixels of a mirror are cast again
 /// from the mirror image of the camera, pixels of window glass again from behind the pane.
-/// Allocates nothing after the first image of a size. One instance, one thread.
+/// Allocates nothing after the first image of a size, but for what Embree does to move walkers. One
+/// instance, one thread.
 class KinectRenderer {
  public:
   /// `scene` must outlive it. Throws std::runtime_error if a mesh is broken or Embree fails.
@@ -39,7 +40,7 @@ class KinectRenderer {
   struct Level {
     std::vector<std::uint32_t> triangles;
     std::vector<float> from_m;
-    std::vector<float> planes[6];
+    std::vector<float> planes[5];
     ViewRow row();
   };
 

@@ -23,7 +23,8 @@ inline float square_wave_integral(float x) {
 /// checkerboard pattern", 2011).
 inline float square_wave(float x, float width) {
   const float w = larger(width, kWidthLeast);
-  return (square_wave_integral(x + 0.5F * w) - square_wave_integral(x - 0.5F * w)) / w;
+  const float near = x - 2.0F * std::floor(0.5F * x);  // far out there are no digits left for w
+  return (square_wave_integral(near + 0.5F * w) - square_wave_integral(near - 0.5F * w)) / w;
 }
 
 /// 0..1 for a place of a whole-numbered lattice.

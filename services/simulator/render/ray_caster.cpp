@@ -36,7 +36,7 @@ void reset_hits(RTCRayHit16& packet) {
 /// Rays go out in square blocks, as packets of 4 x 4 pixels that Embree takes on together: they
 /// meet the same few triangles.
 constexpr int kTile_px = 4;
-constexpr int kBlock_px = 8;
+constexpr int kBlock_px = EdgeBlocks::kSide_px;
 constexpr int kPackets = kBlock_px * kBlock_px / kLanes;
 
 /// Where ray i of a block is in it.
@@ -69,6 +69,12 @@ void set_directions(const Eigen::Vector3f& first, const RayBlockSteps& steps, Ra
     for (int i = 0; i < kLanes; ++i) packet.ray.dir_z[i] = first.z() + steps.z[k][i];
     reset_hits(packet);
   }
+}
+
+void set_direction(const Eigen::Vector3d& way, int lane, RTCRayHit16& packet) {
+  packet.ray.dir_x[lane] = static_cast<float>(way.x());
+  packet.ray.dir_y[lane] = static_cast<float>(way.y());
+  packet.ray.dir_z[lane] = static_cast<float>(way.z());
 }
 
 RTCIntersectContext context_of(RTCIntersectContextFlags coherence) {
@@ -109,7 +115,7 @@ void fill(RTCGeometry geometry, const std::vector<Mesh>& meshes) {
 }  // namespace
 
 RayCaster::RayCaster(const Scene& scene, const SurfaceTable& table)
-    : table_(table), device_(rtcNewDevice("threads=1")) {
+    : table_(table), blocks_(scene, table), device_(rtcNewDevice("threads=1")) {
   if (!device_) fail(rtcGetDeviceError(nullptr));
   parts_.push_back(build(scene.meshes));
   for (const Walker& walker : scene.walkers) parts_.push_back(build(walker.meshes));
@@ -142,6 +148,7 @@ void RayCaster::make_instances() {
 }
 
 void RayCaster::move(std::size_t part, const Eigen::Isometry3d& T_world_part) {
+  blocks_.move(part, T_world_part);
   const Eigen::Matrix<float, 3, 4> columns = T_world_part.matrix().topRows<3>().cast<float>();
   rtcSetGeometryTransform(instances_[part].get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
                           columns.data());
@@ -173,14 +180,67 @@ void RayCaster::store(const RTCHit16& hit, int u0, int v0, int width_px, int hei
   }
 }
 
-void RayCaster::cast(const RayFrame& rays, int width_px, int height_px,
-                     std::uint32_t* triangles) const {
+void RayCaster::cast(const RayFrame& rays, int width_px, int height_px, std::uint32_t* triangles) {
+  blocks_.mark(rays, width_px, height_px);
+  for (int row = 0; row < blocks_.rows(); ++row) cast_corners(rays, row, width_px, triangles);
+  cast_blocks(rays, width_px, height_px, triangles);
+}
+
+void RayCaster::cast_corners(const RayFrame& rays, int row, int width_px,
+                             std::uint32_t* triangles) {
+  constexpr int kCorners = 4, kReach_px = EdgeBlocks::kSide_px - 1;
+  RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  RTCRayHit16 packet = empty_packet(rays.origin_m);
+  alignas(64) int valid[kLanes];
+  int column = 0;
+  while (column < blocks_.columns()) {
+    int columns[kLanes / kCorners];
+    int count = 0;
+    for (; column < blocks_.columns() && count < kLanes / kCorners; ++column) {
+      if (!blocks_.has_edge(column, row)) columns[count++] = column;
+    }
+    if (count == 0) return;
+    for (int i = 0; i < kLanes; ++i) {
+      const int block = std::min(i / kCorners, count - 1);
+      valid[i] = i / kCorners < count ? -1 : 0;
+      const int u = columns[block] * EdgeBlocks::kSide_px + (i & 1) * kReach_px;
+      const int v = row * EdgeBlocks::kSide_px + (i >> 1 & 1) * kReach_px;
+      set_direction(rays.direction(u, v), i, packet);
+    }
+    reset_hits(packet);
+    rtcIntersect16(valid, root(), &context, &packet);
+    std::uint32_t numbers[kLanes];
+    number(packet.hit, numbers);
+    for (int i = 0; i < count; ++i) {
+      fill_block(numbers + i * kCorners, columns[i], row, width_px, triangles);
+    }
+  }
+}
+
+void RayCaster::fill_block(const std::uint32_t* corners, int column, int row, int width_px,
+                           std::uint32_t* triangles) {
+  const auto piece = [this](std::uint32_t triangle) {
+    return triangle == kNoTriangle ? kNoTriangle : table_.flat_piece(triangle);
+  };
+  const std::uint32_t first = piece(corners[0]);
+  for (int i = 1; i < 4; ++i) {
+    if (piece(corners[i]) != first) return blocks_.add_edge(column, row);
+  }
+  constexpr int kSide_px = EdgeBlocks::kSide_px;
+  std::uint32_t* to = triangles + row * kSide_px * width_px + column * kSide_px;
+  for (int v = 0; v < kSide_px; ++v) std::fill_n(to + v * width_px, kSide_px, corners[0]);
+}
+
+void RayCaster::cast_blocks(const RayFrame& rays, int width_px, int height_px,
+                            std::uint32_t* triangles) const {
   RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
   const RayBlockSteps steps(rays);
   RayBlock block;
   for (RTCRayHit16& packet : block.packets) packet = empty_packet(rays.origin_m);
-  for (int v = 0; v < height_px; v += kBlock_px) {
-    for (int u = 0; u < width_px; u += kBlock_px) {
+  for (int row = 0; row < blocks_.rows(); ++row) {
+    for (int column = 0; column < blocks_.columns(); ++column) {
+      if (!blocks_.has_edge(column, row)) continue;
+      const int u = column * kBlock_px, v = row * kBlock_px;
       set_directions(rays.direction(u, v).cast<float>(), steps, block);
       rtcIntersectNM(root(), &context, reinterpret_cast<RTCRayHitN*>(block.packets), kLanes,
                      kPackets, sizeof(RTCRayHit16));
@@ -200,10 +260,7 @@ void RayCaster::cast_row(const RayFrame& rays, int v, int begin, int end, const 
   for (int u = begin; u < end; u += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       valid[lane] = u + lane < end ? -1 : 0;
-      const Eigen::Vector3f direction = rays.direction(u + lane, v).cast<float>();
-      packet.ray.dir_x[lane] = direction.x();
-      packet.ray.dir_y[lane] = direction.y();
-      packet.ray.dir_z[lane] = direction.z();
+      set_direction(rays.direction(u + lane, v), lane, packet);
       packet.ray.tnear[lane] = from_m[std::min(u + lane, end - 1)];
     }
     reset_hits(packet);

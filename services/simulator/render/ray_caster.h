@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/simulator/core/scene.h"
+#include "services/simulator/render/edge_blocks.h"
 #include "services/simulator/render/ray_frame.h"
 #include "services/simulator/render/surface_table.h"
 
@@ -27,8 +28,10 @@ class RayCaster {
   void move(std::size_t part, const Eigen::Isometry3d& T_world_part);
   void commit();
 
-  /// Triangle numbers of a width x height image, row by row.
-  void cast(const RayFrame& rays, int width_px, int height_px, std::uint32_t* triangles) const;
+  /// Triangle numbers of a width x height image, row by row. Blocks of pixels that no edge crosses
+  /// are told by the rays of their corners; a pixel there may get another triangle of the same flat
+  /// piece. Allocates nothing after the first image of a size.
+  void cast(const RayFrame& rays, int width_px, int height_px, std::uint32_t* triangles);
 
   /// Triangle numbers of pixels [begin, end) of row v, written to triangles[begin..end), not
   /// looking nearer than from_m[u].
@@ -51,10 +54,16 @@ class RayCaster {
   void make_instances();
   RTCScene root() const { return whole_ ? whole_.get() : parts_.front().get(); }
   void number(const RTCHit16& hit, std::uint32_t* triangles) const;
+  void cast_corners(const RayFrame& rays, int row, int width_px, std::uint32_t* triangles);
+  void cast_blocks(const RayFrame& rays, int width_px, int height_px,
+                   std::uint32_t* triangles) const;
+  void fill_block(const std::uint32_t* corners, int column, int row, int width_px,
+                  std::uint32_t* triangles);
   void store(const RTCHit16& hit, int u0, int v0, int width_px, int height_px,
              std::uint32_t* triangles) const;
 
   const SurfaceTable& table_;
+  EdgeBlocks blocks_;
   Device device_;
   std::vector<SceneHandle> parts_;   ///< the world at rest, then one for each walker
   std::vector<Geometry> instances_;  ///< of parts_, unless nothing moves

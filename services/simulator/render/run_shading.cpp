@@ -33,23 +33,21 @@ Parabola squared_length(const Eigen::Vector3d& first, const Eigen::Vector3d& ste
 struct DepthRun {
   Line inverse_depth;
   Parabola direction_squared;
-  float distance_m;  ///< from the eye to the plane
-  float reflectance;
+  float light;  ///< reflectance times the eye's distance from the plane, m
   int count;
 };
 
 ROOMWISE_MULTIVERSION
-void fill_depth(const DepthRun& run, float* inverse_depth, float* infrared, float* cosine) {
+void fill_depth(DepthRun run, float* inverse_depth, float* infrared, float* depth_m) {
   for (int i = 0; i < run.count; ++i) {
     const auto x = static_cast<float>(i);
     const float on_plane = run.inverse_depth(x);
     const float inverse = on_plane > kInverseDepthLeast_per_m ? on_plane : kInverseDepthLeast_per_m;
     const float squared = run.direction_squared(x);
-    const float facing = run.distance_m * inverse / std::sqrt(squared);
-    const float cos_incidence = facing < 1.0F ? facing : 1.0F;
+    // cos / range^2, with cos = distance / range and range = depth |direction|.
+    infrared[i] = run.light * inverse * inverse * inverse / (squared * std::sqrt(squared));
     inverse_depth[i] = inverse;
-    cosine[i] = cos_incidence;
-    infrared[i] = run.reflectance * cos_incidence * inverse * inverse / squared;
+    depth_m[i] = 1.0F / inverse;
   }
 }
 
@@ -63,9 +61,9 @@ struct TextureRun {
 };
 
 ROOMWISE_MULTIVERSION
-void fill_texture(const TextureRun& run, const float* inverse_depth, float* value, float* width) {
+void fill_texture(TextureRun run, const float* depth_m, float* value, float* width) {
   for (int i = 0; i < run.count; ++i) {
-    const float depth = 1.0F / inverse_depth[i];
+    const float depth = depth_m[i];
     const float beyond_eye = depth * run.slope(static_cast<float>(i));
     // d(depth * slope): depth changes by -depth^2 d(inverse).
     const float per_u = depth * (run.slope_per_u - beyond_eye * run.inverse_per_u);
@@ -86,11 +84,10 @@ struct LampRun {
 };
 
 ROOMWISE_MULTIVERSION
-void add_lamp(const LampRun& run, const float* inverse_depth, float* red, float* green,
-              float* blue) {
+void add_lamp(LampRun run, const float* depth_m, float* red, float* green, float* blue) {
   for (int i = 0; i < run.count; ++i) {
     const auto x = static_cast<float>(i);
-    const float depth = 1.0F / inverse_depth[i];
+    const float depth = depth_m[i];
     const float raw =
         run.eye_squared + depth * (depth * run.direction_squared(x) - 2.0F * run.along(x));
     const float squared = raw > 1e-4F ? raw : 1e-4F;
@@ -101,10 +98,18 @@ void add_lamp(const LampRun& run, const float* inverse_depth, float* red, float*
   }
 }
 
+/// Turns light that falls on a surface of two colours into light that comes from it.
 ROOMWISE_MULTIVERSION
-void compose(const float* mix, const float* light, float first, float second, int count,
-             float* out) {
-  for (int i = 0; i < count; ++i) out[i] = light[i] * (first + mix[i] * (second - first));
+void reflect(const float* mix, const Material& material, int count, float* red, float* green,
+             float* blue) {
+  const auto [r, g, b] = material.color;
+  const auto [r2, g2, b2] = material.second_color;
+  const float dr = r2 - r, dg = g2 - g, db = b2 - b;
+  for (int i = 0; i < count; ++i) {
+    red[i] *= r + mix[i] * dr;
+    green[i] *= g + mix[i] * dg;
+    blue[i] *= b + mix[i] * db;
+  }
 }
 
 /// Signed distance of the eye from the plane, along the surface's normal.
@@ -117,12 +122,12 @@ double eye_height(const RayFrame& rays, const Surface& surface) {
 RunShading::RunShading(const Scene& scene) : scene_(scene) {}
 
 void RunShading::resize(int width_px) {
-  for (auto* row : {&s_, &t_, &s_width_, &t_width_, &mix_, &light_[0], &light_[1], &light_[2]})
+  for (auto* row : {&depth_m_, &s_, &t_, &s_width_, &t_width_, &mix_})
     row->resize(static_cast<std::size_t>(width_px));
 }
 
 bool RunShading::depth(const RayFrame& rays, const Surface& surface, const Run& run,
-                       const ViewRow& row) const {
+                       const ViewRow& row) {
   const double height_m = eye_height(rays, surface);
   if (std::abs(height_m) < kPlaneThroughEye_m) {
     nothing(run, row);
@@ -132,16 +137,15 @@ bool RunShading::depth(const RayFrame& rays, const Surface& surface, const Run& 
   const DepthRun plane{.inverse_depth = line(-surface.normal.dot(first) / height_m,
                                              -surface.normal.dot(rays.step_u) / height_m),
                        .direction_squared = squared_length(first, rays.step_u),
-                       .distance_m = static_cast<float>(std::abs(height_m)),
-                       .reflectance = scene_.materials[surface.material].infrared_reflectance,
+                       .light = static_cast<float>(std::abs(height_m)) *
+                                scene_.materials[surface.material].infrared_reflectance,
                        .count = run.end - run.begin};
   fill_depth(plane, row.inverse_depth_per_m + run.begin, row.infrared_ratio + run.begin,
-             row.cos_incidence + run.begin);
+             depth_m_.data());
   return true;
 }
 
-void RunShading::find_places(const RayFrame& rays, const Surface& surface, const Run& run,
-                             const float* inverse_depth) {
+void RunShading::find_places(const RayFrame& rays, const Surface& surface, const Run& run) {
   const double height_m = eye_height(rays, surface);
   const double per_size = 1.0 / std::max(1e-3F, scene_.materials[surface.material].pattern_size_m);
   const Eigen::Vector3d first = rays.direction(run.begin, run.v);
@@ -162,14 +166,14 @@ void RunShading::find_places(const RayFrame& rays, const Surface& surface, const
         .inverse_per_u = inverse_per(rays.step_u),
         .inverse_per_v = inverse_per(rays.step_v),
         .count = run.end - run.begin};
-    fill_texture(texture, inverse_depth, value, width);
+    fill_texture(texture, depth_m_.data(), value, width);
   };
   fill(surface.s_gradient, surface.s_at_origin_m, s_.data(), s_width_.data());
   fill(surface.t_gradient, surface.t_at_origin_m, t_.data(), t_width_.data());
 }
 
 void RunShading::add_lamps(const RayFrame& rays, const Surface& surface, const Run& run,
-                           const float* inverse_depth) {
+                           const ViewRow& row) const {
   const double side = eye_height(rays, surface) < 0.0 ? -1.0 : 1.0;
   const Eigen::Vector3d first = rays.direction(run.begin, run.v);
   const auto level = static_cast<float>(scene_.lamp_level);
@@ -185,26 +189,25 @@ void RunShading::add_lamps(const RayFrame& rays, const Surface& surface, const R
         .direction_squared = squared_length(first, rays.step_u),
         .power = {level * lamp.power[0], level * lamp.power[1], level * lamp.power[2]},
         .count = run.end - run.begin};
-    add_lamp(over, inverse_depth, light_[0].data(), light_[1].data(), light_[2].data());
+    add_lamp(over, depth_m_.data(), row.red + run.begin, row.green + run.begin,
+             row.blue + run.begin);
   }
 }
 
 void RunShading::color(const RayFrame& rays, const Surface& surface, const Run& run,
                        const ViewRow& row) {
   const Material& material = scene_.materials[surface.material];
-  const float* inverse_depth = row.inverse_depth_per_m + run.begin;
   const int count = run.end - run.begin;
-  if (material.pattern != Pattern::kPlain) find_places(rays, surface, run, inverse_depth);
+  const auto ambient = static_cast<float>(scene_.ambient * scene_.lamp_level);
+  for (float* plane : {row.red, row.green, row.blue}) {
+    std::fill_n(plane + run.begin, count, ambient);
+  }
+  add_lamps(rays, surface, run, row);
+  if (material.pattern != Pattern::kPlain) find_places(rays, surface, run);
   pattern_mix(material.pattern, {s_.data(), t_.data(), s_width_.data(), t_width_.data()}, count,
               mix_.data());
-  const auto ambient = static_cast<float>(scene_.ambient * scene_.lamp_level);
-  for (auto& light : light_) std::fill_n(light.begin(), count, ambient);
-  add_lamps(rays, surface, run, inverse_depth);
-  float* const planes[] = {row.red, row.green, row.blue};
-  for (std::size_t c = 0; c < 3; ++c) {
-    compose(mix_.data(), light_[c].data(), material.color[c], material.second_color[c], count,
-            planes[c] + run.begin);
-  }
+  reflect(mix_.data(), material, count, row.red + run.begin, row.green + run.begin,
+          row.blue + run.begin);
 }
 
 void RunShading::nothing(const Run& run, const ViewRow& row) const {
@@ -213,7 +216,6 @@ void RunShading::nothing(const Run& run, const ViewRow& row) const {
   };
   fill(row.inverse_depth_per_m, 0.0F);
   fill(row.infrared_ratio, 0.0F);
-  fill(row.cos_incidence, 0.0F);
   const auto level = static_cast<float>(scene_.lamp_level);
   fill(row.red, level * kSky[0]);
   fill(row.green, level * kSky[1]);

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <vector>
 
 #include "services/simulator/core/scene.h"
@@ -12,7 +11,6 @@ namespace roomwise::simulator {
 struct ViewRow {
   float* inverse_depth_per_m;
   float* infrared_ratio;
-  float* cos_incidence;
   float* red;
   float* green;
   float* blue;
@@ -37,26 +35,24 @@ class RunShading {
   /// Makes room for runs of that many pixels.
   void resize(int width_px);
 
-  /// Depth, infrared light and incidence. False, with nothing() there, if the plane goes through
+  /// Depth and infrared light. False, with nothing() there, if the plane goes through
   /// the eye.
   [[nodiscard]] bool depth(const RayFrame& rays, const Surface& surface, const Run& run,
-                           const ViewRow& row) const;
+                           const ViewRow& row);
 
-  /// Colour; needs what depth() wrote.
+  /// Colour of the run that depth() filled last.
   void color(const RayFrame& rays, const Surface& surface, const Run& run, const ViewRow& row);
 
   /// What is seen where nothing is.
   void nothing(const Run& run, const ViewRow& row) const;
 
  private:
-  void find_places(const RayFrame& rays, const Surface& surface, const Run& run,
-                   const float* inverse_depth);
+  void find_places(const RayFrame& rays, const Surface& surface, const Run& run);
   void add_lamps(const RayFrame& rays, const Surface& surface, const Run& run,
-                 const float* inverse_depth);
+                 const ViewRow& row) const;
 
   const Scene& scene_;
-  std::vector<float> s_, t_, s_width_, t_width_, mix_;  ///< of the run in hand
-  std::array<std::vector<float>, 3> light_;             ///< red, green, blue
+  std::vector<float> depth_m_, s_, t_, s_width_, t_width_, mix_;  ///< of the run in hand
 };
 
 }  // namespace roomwise::simulator

@@ -28,12 +28,12 @@ void SimulatedKinect::capture(const Eigen::Isometry3d& T_world_camera, double t_
     return kinect_camera(focal_px, mode.width_px, mode.height_px);
   };
   out.depth_registered = mode.registered;
-  out.depth_camera = camera(depth_params_.depth_focal_px);
-  out.color_camera = mode.registered ? out.depth_camera : camera(color_params_.color_focal_px);
+  out.color_camera = camera(color_params_.color_focal_px);
+  out.depth_camera = mode.registered ? out.color_camera : camera(depth_params_.depth_focal_px);
   look(T_world_camera, t_s, out, mode);
   const double projector_m =
       depth_params_.projector_m - (mode.registered ? color_params_.color_offset_m : 0.0);
-  depth_sensor_.expose(view_, projector_m, frame, out.depth);
+  depth_sensor_.expose(view_, out.depth_camera.fx_px * projector_m, frame, out.depth);
   color_sensor_.expose(view_, frame, t_s, out.color);
 }
 

@@ -30,11 +30,10 @@ class SimulatedKinect {
   /// Takes frame number `frame`, `t_s` after the start: fills depth, colour, both cameras and the
   /// registration of `out`; time, sequence number and mounting are the caller's.
   ///
-  /// Registered: both images are what one camera at T_world_camera sees, with the depth camera's
-  /// focal length. It sits where the colour camera is, nearer to the projector, so shadows are
-  /// narrower. Not registered: T_world_camera is the depth camera's; the colour camera has its own
-  /// focal length and sits to its right.
-  /// The same scene, seed and calls give the same bytes.
+  /// Registered: both images are what the colour camera at T_world_camera sees. It is nearer to the
+  /// projector than the depth camera, so shadows are narrower. Not registered: T_world_camera is
+  /// the depth camera's; the colour camera sits to its right. The same scene, seed and calls give
+  /// the same bytes.
   void capture(const Eigen::Isometry3d& T_world_camera, double t_s, std::int64_t frame,
                const KinectMode& mode, RgbdFrame& out);
 

@@ -10,9 +10,9 @@
 namespace roomwise::simulator {
 namespace {
 
-enum ColorPurpose : std::uint32_t { kColorNoise = 16 };
-constexpr double kFlickerBars = 1.5;      // over the height of the image
-constexpr double kFlickerBarsPerS = 0.7;  // what is left of the difference of 100 and 30 Hz
+constexpr std::uint32_t kColorNoise = 16;  // after the depth sensor's purposes
+constexpr double kFlickerBars = 1.5;       // over the height of the image
+constexpr double kFlickerBarsPerS = 0.7;   // what is left of the difference of 100 and 30 Hz
 
 /// -1 to 1 and back over one unit of `phase`.
 double triangle_wave(double phase) {
@@ -64,12 +64,11 @@ ROOMWISE_MULTIVERSION
 void expose_row(std::uint32_t key, Exposure exposure, int width, float* __restrict rows) {
   for (int u = 0; u < width; ++u) {
     const std::uint32_t bits = hash32(key + static_cast<std::uint32_t>(u));
-    const std::uint32_t more = bits * 0x9e3779b9U;
-    const float blue_noise = noise_of(more >> 11);
+    const std::uint32_t more = hash32(~bits);
     rows[u] = level_of(rows[u], noise_of(bits), exposure);
-    rows[width + u] =
-        level_of(rows[width + u], noise_of(bits >> 21 | (more >> 21) << 11), exposure);
-    rows[2 * width + u] = level_of(rows[2 * width + u], blue_noise, exposure);
+    rows[width + u] = level_of(rows[width + u], noise_of(more), exposure);
+    rows[2 * width + u] =
+        level_of(rows[2 * width + u], noise_of(bits >> 21 | (more >> 21) << 11), exposure);
   }
 }
 
@@ -95,8 +94,7 @@ ColorSensor::ColorSensor(const ColorSensorParams& params, std::uint32_t seed)
     : params_(params), seed_(seed) {}
 
 double ColorSensor::wanted_gain(const KinectView& view) const {
-  constexpr std::size_t kEvery_px =
-      7;  // coprime with the usual widths: all columns have their turn
+  constexpr std::size_t kEvery_px = 61;  // shares no factor with widths: all columns take part
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < view.size(); i += kEvery_px, ++count) {

@@ -10,7 +10,8 @@ namespace roomwise::simulator {
 namespace {
 
 constexpr int kMatchingWidth_px = 640;  // of the grid that disparity is measured on
-constexpr int kMatchingWindow_px = 9;
+constexpr int kWindowWidth_px = 9;
+constexpr int kWindowHeight_px = 7;
 constexpr int kBlindRight_px = 8;    // columns at the right border that a Kinect never measures
 constexpr int kDropout_px = 4;       // side of what random dropouts take
 constexpr float kEdgeQuanta = 8.0F;  // from here on a difference is an edge to window matching
@@ -32,7 +33,8 @@ void measure_row(const float* row, const float* light, const float* noise, const
                  const RowLimits& limits, int width, std::uint16_t* quanta) {
   for (int u = 0; u < width; ++u) {
     const float measured = row[u] + limits.noise_quanta * noise[u] + pattern[u];
-    const float needed = limits.light_needed * (1.0F + kLightSpread * noise[u]);
+    const float spread = kLightSpread * noise[u];
+    const float needed = limits.light_needed * (spread > -0.5F ? 1.0F + spread : 0.5F);
     const int is_read =
         static_cast<int>(row[u] > 0.0F) & static_cast<int>(measured >= limits.quanta_least) &
         static_cast<int>(measured <= limits.quanta_most) & static_cast<int>(light[u] >= needed);
@@ -56,11 +58,11 @@ void DepthSensor::resize(const KinectView& view) {
   width_px_ = view.width_px;
   height_px_ = view.height_px;
   const double scale = static_cast<double>(width_px_) / kMatchingWidth_px;
-  const int window_px =
-      std::clamp(static_cast<int>(std::lround(kMatchingWindow_px * scale)), 1, 64);
+  const auto scaled = [scale](double px) { return static_cast<int>(std::lround(px * scale)); };
+  const auto window = [&scaled](int side_px) { return std::clamp(scaled(side_px), 1, 64); };
   shadow_.resize(width_px_);
-  ragged_.resize(width_px_, height_px_, static_cast<int>(std::lround(params_.ragged_px * scale)));
-  noise_.emplace(width_px_, window_px);
+  ragged_.resize(width_px_, height_px_, std::min(scaled(params_.ragged_px), 4));
+  noise_.emplace(width_px_, window(kWindowWidth_px), window(kWindowHeight_px));
   for (auto* image : {&disparity_, &pattern_}) image->assign(view.size(), 0.0F);
   quanta_.assign(view.size(), 0);
   row_.assign(static_cast<std::size_t>(width_px_), 0.0F);
@@ -76,33 +78,33 @@ void DepthSensor::fill_pattern() {
   }
 }
 
-void DepthSensor::cast_shadow(const KinectView& view, double projector_m) {
+void DepthSensor::cast_shadow(const KinectView& view, double projector_px_m) {
   const auto quanta_m = static_cast<float>(params_.quanta_m());
   std::transform(view.inverse_depth_per_m.begin(), view.inverse_depth_per_m.end(),
                  disparity_.begin(), [quanta_m](float inverse) { return quanta_m * inverse; });
-  const double px_per_quantum =
-      projector_m / params_.projector_m / 8.0 * width_px_ / kMatchingWidth_px;
+  const double px_per_quantum = projector_px_m / params_.quanta_m();
   const auto width = static_cast<std::size_t>(width_px_);
   for (std::size_t begin = 0; begin < disparity_.size(); begin += width) {
     shadow_.apply(std::span(disparity_).subspan(begin, width), static_cast<float>(px_per_quantum));
   }
 }
 
-void DepthSensor::drop_patches(int v, std::uint32_t key) {
+void DepthSensor::drop_patches(std::uint32_t key) {
   const auto limit = static_cast<std::uint32_t>(
       std::min(4294967295.0, params_.depth_dropout_ratio * 4294967296.0));
-  const auto patches = static_cast<std::uint32_t>(width_px_ / kDropout_px + 1);
-  const std::uint32_t first = key + static_cast<std::uint32_t>(v / kDropout_px) * patches;
-  const auto row = quanta_.begin() + static_cast<std::ptrdiff_t>(v) * width_px_;
-  for (std::uint32_t i = 0; i < patches; ++i) {
-    if (hash32(first + i) >= limit) continue;
-    const int begin = static_cast<int>(i) * kDropout_px;
-    const int end = std::min(begin + kDropout_px, width_px_);
-    if (begin < end) std::fill(row + begin, row + end, std::uint16_t{0});
+  for (int v = 0; v < height_px_; v += kDropout_px) {
+    for (int u = 0; u < width_px_; u += kDropout_px) {
+      if (hash32(key++) >= limit) continue;
+      const int columns = std::min(kDropout_px, width_px_ - u);
+      for (int row = v; row < std::min(v + kDropout_px, height_px_); ++row) {
+        std::fill_n(quanta_.begin() + static_cast<std::ptrdiff_t>(row) * width_px_ + u, columns,
+                    std::uint16_t{0});
+      }
+    }
   }
 }
 
-void DepthSensor::expose_row(const KinectView& view, int v, const Keys& keys) {
+void DepthSensor::expose_row(const KinectView& view, int v, std::uint32_t key) {
   const double quanta_m = params_.quanta_m();
   const RowLimits limits{
       .quanta_least = static_cast<float>(std::max(1.0, quanta_m / params_.depth_far_m)),
@@ -111,21 +113,21 @@ void DepthSensor::expose_row(const KinectView& view, int v, const Keys& keys) {
       .noise_quanta = static_cast<float>(params_.depth_noise_quanta),
       .light_needed = static_cast<float>(params_.light_needed_ratio)};
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(v) * width_px_;
-  ragged_.copy_row(disparity_, v, kEdgeQuanta, keys.ragged, row_.data());
+  ragged_.copy_row(disparity_, v, kEdgeQuanta, key, row_.data());
   measure_row(row_.data(), view.infrared_ratio.data() + begin, noise_->next_row(),
               pattern_.data() + begin, limits, width_px_, quanta_.data() + begin);
-  drop_patches(v, keys.dropout);
   const int blind_px = kBlindRight_px * width_px_ / kMatchingWidth_px;
   std::fill_n(quanta_.begin() + begin + width_px_ - blind_px, blind_px, std::uint16_t{0});
 }
 
-void DepthSensor::expose(const KinectView& view, double projector_m, std::int64_t frame,
+void DepthSensor::expose(const KinectView& view, double projector_px_m, std::int64_t frame,
                          DepthImage& out) {
   resize(view);
-  cast_shadow(view, projector_m);
-  const Keys keys{stream_key(seed_, frame, kRagged), stream_key(seed_, frame, kDropout)};
+  cast_shadow(view, projector_px_m);
+  const std::uint32_t ragged_key = stream_key(seed_, frame, kRagged);
   noise_->start(stream_key(seed_, frame, kNoise));
-  for (int v = 0; v < height_px_; ++v) expose_row(view, v, keys);
+  for (int v = 0; v < height_px_; ++v) expose_row(view, v, ragged_key);
+  drop_patches(stream_key(seed_, frame, kDropout));
   out.width_px = width_px_;
   out.height_px = height_px_;
   out.unit_m = 0.001;

@@ -31,24 +31,20 @@ class DepthSensor {
  public:
   DepthSensor(const DepthSensorParams& params, std::uint32_t seed);
 
-  /// `projector_m`: how far the projector is to the right of where the view was taken.
+  /// `projector_px_m`: disparity between the view and the projector times depth, that is the view's
+  /// focal length (px) times how far the projector is to its right (m).
   /// Allocates nothing after the first image of a size.
-  void expose(const KinectView& view, double projector_m, std::int64_t frame, DepthImage& out);
+  void expose(const KinectView& view, double projector_px_m, std::int64_t frame, DepthImage& out);
 
   /// Disparities of the last image, 1/8 px each; 0 is a hole. Shape: height x width.
   std::span<const std::uint16_t> quanta() const { return quanta_; }
 
  private:
-  struct Keys {
-    std::uint32_t ragged;
-    std::uint32_t dropout;
-  };
-
   void resize(const KinectView& view);
   void fill_pattern();
-  void cast_shadow(const KinectView& view, double projector_m);
-  void expose_row(const KinectView& view, int v, const Keys& keys);
-  void drop_patches(int v, std::uint32_t key);
+  void cast_shadow(const KinectView& view, double projector_px_m);
+  void expose_row(const KinectView& view, int v, std::uint32_t key);
+  void drop_patches(std::uint32_t key);
 
   DepthSensorParams params_;
   std::uint32_t seed_ = 0;

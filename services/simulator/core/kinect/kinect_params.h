@@ -5,10 +5,10 @@ namespace roomwise::simulator {
 /// The depth camera: projector and camera side by side, matching a pattern of infrared dots.
 /// Disparity is counted in quanta of 1/8 px on a grid 640 px wide.
 struct DepthSensorParams {
-  double depth_focal_px = 585.0;       ///< of the 640 px grid; both images have it when registered
-  double projector_m = 0.075;          ///< the projector sits that far to the right of the camera
-  double depth_noise_quanta = 0.36;    ///< sigma, another one in every frame
-  double depth_pattern_quanta = 0.30;  ///< sigma of the error that stays at its pixel in all frames
+  double depth_focal_px = 585.0;  ///< of the 640 px grid, and of depth images as they are measured
+  double projector_m = 0.075;     ///< the projector sits that far to the right of the camera
+  double depth_noise_quanta = 0.34;    ///< sigma, another one in every frame
+  double depth_pattern_quanta = 0.40;  ///< sigma of the error that stays at its pixel in all frames
   double ragged_px = 2.0;              ///< how far window matching misplaces an edge, at most
   double depth_near_m = 0.5;           ///< nothing is seen nearer than this
   double depth_far_m = 8.0;            ///< nor beyond
@@ -36,7 +36,7 @@ struct DepthSensorParams {
 
 /// The colour camera. Light is linear, 1 being white at gain 1.
 struct ColorSensorParams {
-  double color_focal_px = 525.0;        ///< of its own image, 640 px wide, when not registered
+  double color_focal_px = 525.0;        ///< of images 640 px wide, and of depth registered to them
   double color_offset_m = 0.025;        ///< it sits that far to the right of the depth camera
   double color_wanted_ratio = 0.18;     ///< mean brightness that automatic exposure steers to
   double color_gain_max_ratio = 8.0;    ///< what it can do in the dark

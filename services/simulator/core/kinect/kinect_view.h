@@ -21,7 +21,6 @@ struct KinectView {
   std::vector<float> infrared_ratio;
   std::vector<std::uint8_t> surface_class;  ///< SurfaceClass of what stands there, or kNoSurface
   std::vector<std::uint16_t> material;      ///< index into Scene::materials, or kNoMaterial
-  std::vector<float> cos_incidence;         ///< of the ray against the surface's normal, 0..1
   std::vector<float> red, green, blue;      ///< light, linear; 1 is white in full ambient light
 
   /// Makes room for images of that size; what was there is lost.
@@ -29,7 +28,7 @@ struct KinectView {
     width_px = new_width_px;
     height_px = new_height_px;
     const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-    for (auto* plane : {&inverse_depth_per_m, &infrared_ratio, &cos_incidence, &red, &green, &blue})
+    for (auto* plane : {&inverse_depth_per_m, &infrared_ratio, &red, &green, &blue})
       plane->resize(pixels);
     surface_class.resize(pixels);
     material.resize(pixels);
