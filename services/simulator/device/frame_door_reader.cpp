@@ -66,14 +66,6 @@ PinholeCamera camera_of(const door::Camera& camera) {
   return {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
 }
 
-bool is_offered(int width_px, int height_px) {
-  return (width_px == 640 && height_px == 480) || (width_px == 320 && height_px == 240);
-}
-
-std::size_t pixels(int width_px, int height_px) {
-  return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-}
-
 }  // namespace
 
 FrameDoorReader::FrameDoorReader(const std::filesystem::path& path) {
@@ -130,8 +122,8 @@ bool FrameDoorReader::copy(std::uint64_t number, DoorFrame& frame) {
   if (slot.state.load(std::memory_order_acquire) != 2 * number) return false;
   door::FrameFacts facts{};
   door::load_words(slot.facts, &facts, sizeof facts);
-  if (!is_offered(facts.depth_width_px, facts.depth_height_px) ||
-      !is_offered(facts.color_width_px, facts.color_height_px)) {
+  if (!door::is_offered(facts.depth_width_px, facts.depth_height_px) ||
+      !door::is_offered(facts.color_width_px, facts.color_height_px)) {
     return false;
   }
   frame.number = facts.number;
@@ -141,8 +133,8 @@ bool FrameDoorReader::copy(std::uint64_t number, DoorFrame& frame) {
   frame.depth_height_px = facts.depth_height_px;
   frame.color_width_px = facts.color_width_px;
   frame.color_height_px = facts.color_height_px;
-  frame.depth_mm.resize(pixels(facts.depth_width_px, facts.depth_height_px));
-  frame.rgb.resize(3 * pixels(facts.color_width_px, facts.color_height_px));
+  frame.depth_mm.resize(door::pixels(facts.depth_width_px, facts.depth_height_px));
+  frame.rgb.resize(3 * door::pixels(facts.color_width_px, facts.color_height_px));
   door::load_words(slot.depth, frame.depth_mm.data(), 2 * frame.depth_mm.size());
   door::load_words(slot.color, frame.rgb.data(), frame.rgb.size());
   return slot.state.load(std::memory_order_relaxed) == 2 * number;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/kinect_pub/support/made_frames.h"
+#include "tests/support/scratch_folder.h"
 
 namespace roomwise::simulator {
 
@@ -13,9 +14,16 @@ inline std::string uri_of(const std::filesystem::path& door) {
   return "roomwise-sim://" + door.string();
 }
 
+/// Where the driver looks for a camera to list: the same for the life of the process.
+inline std::filesystem::path default_door() {
+  static const ScratchFolder folder;
+  return folder.path() / "kinect";
+}
+
 /// Starts OpenNI2 for the life of the process. It is never shut down: it would deadlock if a door
 /// went at that moment.
 inline void start_openni() {
+  ::setenv("ROOMWISE_SIM_KINECT", default_door().c_str(), 1);
   static const openni::Status status = openni::OpenNI::initialize();
   ASSERT_EQ(status, openni::STATUS_OK) << openni::OpenNI::getExtendedError();
 }
