@@ -2,8 +2,11 @@
 #include <OpenNI.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "tests/kinect_pub/support/made_frames.h"
 #include "tests/support/scratch_folder.h"
@@ -31,7 +34,11 @@ inline void start_openni() {
 /// A device with both streams, as a client of OpenNI2 sees it. Streams go before their device.
 struct OpenedCamera {
   explicit OpenedCamera(const std::string& uri) {
-    EXPECT_EQ(device.open(uri.c_str()), openni::STATUS_OK) << openni::OpenNI::getExtendedError();
+    // The driver may be busy telling OpenNI2 of another device.
+    for (int i = 0; i < 50 && device.open(uri.c_str()) != openni::STATUS_OK; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_TRUE(device.isValid()) << openni::OpenNI::getExtendedError();
     EXPECT_EQ(depth.create(device, openni::SENSOR_DEPTH), openni::STATUS_OK);
     EXPECT_EQ(color.create(device, openni::SENSOR_COLOR), openni::STATUS_OK);
   }
