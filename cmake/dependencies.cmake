@@ -38,7 +38,8 @@ target_include_directories(openni2_headers SYSTEM INTERFACE ${OPENNI2_INCLUDE_DI
 add_library(openni2_client INTERFACE)
 target_link_libraries(openni2_client INTERFACE openni2_headers ${OPENNI2_LIBRARY})
 if(CMAKE_CXX_FLAGS_DEBUG MATCHES "sanitize=address")
-  target_sources(openni2_client INTERFACE ${CMAKE_SOURCE_DIR}/tests/support/openni2_leaks.cpp)
+  target_sources(openni2_client INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:
+    ${CMAKE_SOURCE_DIR}/tests/support/openni2_leaks.cpp>)
 endif()
 get_filename_component(openni2_folder ${OPENNI2_LIBRARY} DIRECTORY)
 set(ROOMWISE_OPENNI2_RPATH "\$ORIGIN/../openni2")

@@ -56,9 +56,22 @@ std::set<Words> recorded_depths() {
   return images;
 }
 
-KinectRun::Environment fakenect() {
+/// The dump once after the other, as one long recording: fakenect plays but once. Its clock starts
+/// anew each time.
+void repeat_dump(const std::filesystem::path& folder) {
+  std::filesystem::create_directory(folder);
+  for (const auto& entry : std::filesystem::directory_iterator(dump())) {
+    if (entry.path().filename() == "INDEX.txt") continue;
+    std::filesystem::create_symlink(std::filesystem::absolute(entry.path()),
+                                    folder / entry.path().filename());
+  }
+  std::ofstream index(folder / "INDEX.txt");
+  for (int i = 0; i < 40; ++i) index << read_whole(dump() / "INDEX.txt");
+}
+
+KinectRun::Environment fakenect(const std::filesystem::path& recording) {
   // Sanitized programs insist on being loaded first.
-  return {std::string("LD_PRELOAD=") + kFakenect, "FAKENECT_PATH=" + dump().string(),
+  return {std::string("LD_PRELOAD=") + kFakenect, "FAKENECT_PATH=" + recording.string(),
           "ASAN_OPTIONS=verify_asan_link_order=0"};
 }
 
@@ -71,9 +84,11 @@ class FreenectTest : public ::testing::Test {
 
 TEST_F(FreenectTest, FramesOfKinectPubAreThoseOfTheDump) {
   ROOMWISE_NEED_DATA("fakenect_dump");
-  run_.start_kinect_pub("device = 'freenect://0'\nuse_color = false", fakenect());
-  const auto messages = run_.frames(10);  // of 15: fakenect plays once
-  ASSERT_EQ(messages.size(), 10U) << run_.kinect_pub().output();
+  repeat_dump(run_.folder() / "dump");
+  run_.start_kinect_pub("device = 'freenect://0'\nuse_color = false",
+                        fakenect(run_.folder() / "dump"));
+  const auto messages = run_.frames(20);
+  ASSERT_EQ(messages.size(), 20U) << run_.kinect_pub().output();
   const std::set<Words> recorded = recorded_depths();
   FrameDecoder decoder(ColorUse::kDecode);
   for (const kinect_frame_t& message : messages) {
@@ -89,7 +104,7 @@ TEST_F(FreenectTest, ClientThatAsksForDisparityGetsTheSensorsOwnWords) {
   ROOMWISE_NEED_DATA("fakenect_dump");
   const std::string file = run_.folder() / "words";
   std::vector<std::string> command = {"env"};
-  for (const std::string& variable : fakenect()) command.push_back(variable);
+  for (const std::string& variable : fakenect(dump())) command.push_back(variable);
   for (const std::string& word : {std::string(ROOMWISE_BIN_DIR) + "/../tests/read_kinect",
                                   std::string("freenect://0"), file, std::string("12")}) {
     command.push_back(word);
@@ -114,7 +129,7 @@ TEST_F(FreenectTest, ClientThatAsksForDisparityGetsTheSensorsOwnWords) {
 
 TEST_F(FreenectTest, ColourThatNeverComesIsSaid) {
   ROOMWISE_NEED_DATA("fakenect_dump");
-  run_.start_kinect_pub("device = 'freenect://0'\nstart_max_s = 0.3", fakenect());
+  run_.start_kinect_pub("device = 'freenect://0'\nstart_max_s = 0.3", fakenect(dump()));
   const auto status = run_.status([](const device_status_t& s) { return !s.last_error.empty(); });
   ASSERT_TRUE(status) << run_.kinect_pub().output();
   EXPECT_EQ(status->last_error, "freenect://0: sends no pair of images");

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "common/frames/frame_decoder.h"
 #include "tests/kinect_pub/support/kinect_run.h"
@@ -202,6 +203,7 @@ class KinectPubRecordingTest : public KinectPubTest {
   void record(int images) {
     run_.start_camera();
     while (!std::filesystem::exists(run_.folder() / "kinect")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     std::string said;
     ASSERT_EQ(run_to_end({std::string(ROOMWISE_BIN_DIR) + "/../tests/record_oni", run_.camera_uri(),

@@ -63,15 +63,15 @@ int new_file(const std::filesystem::path& path) {
   return file;
 }
 
-door::Camera camera_of(const PinholeCamera& camera) {
+door::Camera stored(const PinholeCamera& camera) {
   return {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
 }
 
 void describe(const FrameDoorDescription& description, door::Header& header) {
   header.file_size = sizeof(door::Layout);
   description.serial.copy(header.serial, door::kSerialSize - 1);
-  header.depth_camera = camera_of(description.depth_camera);
-  header.color_camera = camera_of(description.color_camera);
+  header.depth_camera = stored(description.depth_camera);
+  header.color_camera = stored(description.color_camera);
   header.magic = door::kMagic;
 }
 
@@ -80,11 +80,8 @@ void check(const RgbdFrame& frame) {
       !door::is_offered(frame.color.width_px, frame.color.height_px)) {
     throw std::invalid_argument("frame door: images must be 640 x 480 or 320 x 240");
   }
-  const auto pixels = [](int width_px, int height_px) {
-    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  };
-  if (frame.depth.steps.size() != pixels(frame.depth.width_px, frame.depth.height_px) ||
-      frame.color.rgb.size() != 3 * pixels(frame.color.width_px, frame.color.height_px)) {
+  if (frame.depth.steps.size() != door::pixels(frame.depth.width_px, frame.depth.height_px) ||
+      frame.color.rgb.size() != 3 * door::pixels(frame.color.width_px, frame.color.height_px)) {
     throw std::invalid_argument("frame door: image size does not match its pixels");
   }
 }

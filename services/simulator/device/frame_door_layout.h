@@ -15,6 +15,15 @@ inline constexpr std::size_t kPixels = std::size_t{kLargestWidth_px} * kLargestH
 inline constexpr std::size_t kSlots = 4;  ///< a reader may fall 3 frames behind and lose none
 inline constexpr std::size_t kSerialSize = 32;
 
+/// The image sizes a door carries.
+constexpr bool is_offered(int width_px, int height_px) {
+  return (width_px == 640 && height_px == 480) || (width_px == 320 && height_px == 240);
+}
+
+constexpr std::size_t pixels(int width_px, int height_px) {
+  return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+}
+
 /// Pinhole camera of the 640 x 480 image.
 struct Camera {
   double fx_px;

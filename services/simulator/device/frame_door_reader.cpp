@@ -66,10 +66,6 @@ PinholeCamera camera_of(const door::Camera& camera) {
   return {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
 }
 
-std::size_t pixels(int width_px, int height_px) {
-  return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-}
-
 }  // namespace
 
 FrameDoorReader::FrameDoorReader(const std::filesystem::path& path) {
@@ -137,8 +133,8 @@ bool FrameDoorReader::copy(std::uint64_t number, DoorFrame& frame) {
   frame.depth_height_px = facts.depth_height_px;
   frame.color_width_px = facts.color_width_px;
   frame.color_height_px = facts.color_height_px;
-  frame.depth_mm.resize(pixels(facts.depth_width_px, facts.depth_height_px));
-  frame.rgb.resize(3 * pixels(facts.color_width_px, facts.color_height_px));
+  frame.depth_mm.resize(door::pixels(facts.depth_width_px, facts.depth_height_px));
+  frame.rgb.resize(3 * door::pixels(facts.color_width_px, facts.color_height_px));
   door::load_words(slot.depth, frame.depth_mm.data(), 2 * frame.depth_mm.size());
   door::load_words(slot.color, frame.rgb.data(), frame.rgb.size());
   return slot.state.load(std::memory_order_relaxed) == 2 * number;

@@ -77,8 +77,10 @@ void SimDriver::watch() {
   while (!stopping_) {
     lock.unlock();
     const std::vector<Change> changes = look_at_doors();
-    // OpenNI2 may call us back from here: no lock of ours is held.
-    for (const Change& change : changes) tell(change);
+    for (const Change& change : changes) {
+      const std::lock_guard telling(telling_);
+      tell(change);
+    }
     lock.lock();
     wake_.wait_for(lock, kWatchPeriod, [this] { return stopping_; });
   }
@@ -120,6 +122,10 @@ bool SimDriver::start_watching(const std::filesystem::path& path) {
 OniStatus SimDriver::tryDevice(const char* uri) {
   const auto path = path_of(uri);
   if (!path) return ONI_STATUS_ERROR;
+  // OpenNI2 holds a lock now that the watcher, telling it of a device, may be waiting for while it
+  // holds another that we would need: then the client has to ask again.
+  const std::unique_lock telling(telling_, std::try_to_lock);
+  if (!telling.owns_lock()) return ONI_STATUS_ERROR;
   try {
     if (start_watching(*path)) tell({*path, true});
     return ONI_STATUS_OK;

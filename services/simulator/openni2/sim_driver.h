@@ -47,7 +47,8 @@ class SimDriver : public oni::driver::DriverBase {
   void tell(const Change& change);
   bool start_watching(const std::filesystem::path& path);
 
-  std::mutex mutex_;
+  std::mutex telling_;  ///< held while OpenNI2 is told of a device
+  std::mutex mutex_;    ///< of all that follows; never held while OpenNI2 is told
   std::condition_variable wake_;
   bool stopping_ = false;
   bool watcher_ended_ = true;

@@ -2,10 +2,14 @@
 #include <OpenNI.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "tests/kinect_pub/support/made_frames.h"
+#include "tests/support/scratch_folder.h"
 
 namespace roomwise::simulator {
 
@@ -13,9 +17,16 @@ inline std::string uri_of(const std::filesystem::path& door) {
   return "roomwise-sim://" + door.string();
 }
 
+/// Where the driver looks for a camera to list: the same for the life of the process.
+inline std::filesystem::path default_door() {
+  static const ScratchFolder folder;
+  return folder.path() / "kinect";
+}
+
 /// Starts OpenNI2 for the life of the process. It is never shut down: it would deadlock if a door
 /// went at that moment.
 inline void start_openni() {
+  ::setenv("ROOMWISE_SIM_KINECT", default_door().c_str(), 1);
   static const openni::Status status = openni::OpenNI::initialize();
   ASSERT_EQ(status, openni::STATUS_OK) << openni::OpenNI::getExtendedError();
 }
@@ -23,7 +34,11 @@ inline void start_openni() {
 /// A device with both streams, as a client of OpenNI2 sees it. Streams go before their device.
 struct OpenedCamera {
   explicit OpenedCamera(const std::string& uri) {
-    EXPECT_EQ(device.open(uri.c_str()), openni::STATUS_OK) << openni::OpenNI::getExtendedError();
+    // The driver may be busy telling OpenNI2 of another device.
+    for (int i = 0; i < 50 && device.open(uri.c_str()) != openni::STATUS_OK; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_TRUE(device.isValid()) << openni::OpenNI::getExtendedError();
     EXPECT_EQ(depth.create(device, openni::SENSOR_DEPTH), openni::STATUS_OK);
     EXPECT_EQ(color.create(device, openni::SENSOR_COLOR), openni::STATUS_OK);
   }

@@ -15,16 +15,7 @@ namespace {
 
 class SimDriverTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    ::setenv("ROOMWISE_SIM_KINECT", default_door().c_str(), 1);
-    start_openni();
-  }
-
-  /// Where the driver looks for a camera to list: told before it is loaded, the same for all tests.
-  static std::filesystem::path default_door() {
-    static const ScratchFolder folder;
-    return folder.path() / "kinect";
-  }
+  static void SetUpTestSuite() { start_openni(); }
 
   const FedDoor& serve() {
     door_ = std::make_unique<FedDoor>(path_);
