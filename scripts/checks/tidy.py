@@ -26,8 +26,7 @@ WARNING = re.compile(r"^(/\S+?):(\d+):\d+: (?:warning|error): (.*)$", flags=re.M
 
 def check(tree):
     build = tree.root / BUILD
-    commands = {entry["file"]: entry for entry in
-                json.loads((build / "compile_commands.json").read_text())}
+    commands = commands_of(tree.root, json.loads((build / "compile_commands.json").read_text()))
     headers = dependencies(build)
     version = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True).stdout
     lists = version + "".join(tree.text(path) for path in tree.match(LISTS))
@@ -51,6 +50,17 @@ def check(tree):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         found = {line for lines in pool.map(judge, groups) for line in lines}
     return sorted(found | {f"{path}:1: no target compiles this file" for path in stray})
+
+
+def commands_of(root, entries):
+    """Source -> how it is compiled, alone or together with others."""
+    found = {}
+    for entry in entries:
+        found[entry["file"]] = entry
+        if re.search(r"_together_\d+\.cpp$", entry["file"]):
+            included = re.findall(r'#include "(.*)"', pathlib.Path(entry["file"]).read_text())
+            found |= {str(root / path): entry for path in included}
+    return found
 
 
 def alike(paths, root, commands):

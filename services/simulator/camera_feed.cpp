@@ -37,7 +37,15 @@ CameraFeed::~CameraFeed() {
   thread_.join();
 }
 
+bool CameraFeed::is_watched() {
+  const std::uint64_t looks = door_.looks();
+  moments_unwatched_ = looks == looks_ ? moments_unwatched_ + 1 : 0;
+  looks_ = looks;
+  return moments_unwatched_ < kMomentsPatience;
+}
+
 void CameraFeed::take(const CameraMoment& moment) {
+  if (!is_watched()) return;
   {
     const std::lock_guard lock(mutex_);
     if (newest_) ++dropped_;

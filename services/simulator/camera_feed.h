@@ -24,7 +24,8 @@ struct CameraMoment {
 };
 
 /// The simulated camera at work: renders the newest moment on a thread of its own and puts the
-/// frame into the frame door. A moment that comes before the last one was begun replaces it.
+/// frame into the frame door. A moment that comes before the last one was begun replaces it. Nothing
+/// is rendered while nobody waits for frames.
 class CameraFeed {
  public:
   /// `scene` must outlive it. Throws as FrameDoor and SimulatedKinect do.
@@ -41,6 +42,10 @@ class CameraFeed {
   std::int64_t dropped() const { return dropped_; }
 
  private:
+  /// So many moments after a reader was last seen waiting it is taken to be gone.
+  static constexpr int kMomentsPatience = 30;
+
+  bool is_watched();
   void work();
   std::optional<CameraMoment> next_moment();
   void render(const CameraMoment& moment);
@@ -48,6 +53,8 @@ class CameraFeed {
   SimulatedKinect kinect_;
   FrameDoor door_;
   RgbdFrame frame_;
+  std::uint64_t looks_ = 0;
+  int moments_unwatched_ = kMomentsPatience;
   std::atomic<std::int64_t> frames_ = 0;
   std::atomic<std::int64_t> dropped_ = 0;
   std::mutex mutex_;

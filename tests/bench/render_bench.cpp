@@ -8,6 +8,7 @@
 
 #include "services/simulator/render/simulated_kinect.h"
 #include "services/simulator/scenario/scenario.h"
+#include "tests/support/build_paths.h"
 
 namespace roomwise::simulator {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kLanes = 16;
 constexpr int kTile_px = 4;
 
 const Scene& living_room() {
-  static const Scenario scenario = load_scenario(std::string(ROOMWISE_SOURCE_DIR) +
+  static const Scenario scenario = load_scenario(source_folder().string() +
                                                  "/services/simulator/scenarios/living_room.toml");
   return scenario.scene;
 }

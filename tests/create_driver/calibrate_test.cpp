@@ -7,6 +7,7 @@
 #include "common/params/params.h"
 #include "services/create_driver/core/create_params.h"
 #include "tests/create_driver/support/scripted_robot.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/child_process.h"
 #include "tests/support/scratch_folder.h"
 
@@ -20,7 +21,7 @@ class CreateCalibrate : public ::testing::Test {
     const std::string params = folder_.path() / "params.toml";
     std::ofstream(params) << "port = \"" << (folder_.path() / "create").string() << "\"\n";
     std::ofstream(folder_.path() / "answers") << answers;
-    const std::string command = std::string(ROOMWISE_BIN_DIR) + "/create_calibrate --params " +
+    const std::string command = program("create_calibrate") + " --params " +
                                 params + " --result " + result().string() +
                                 " --distance 0.3 --turns 0.5 < " +
                                 (folder_.path() / "answers").string();

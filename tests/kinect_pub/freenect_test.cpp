@@ -12,6 +12,7 @@
 #include "common/frames/frame_decoder.h"
 #include "services/kinect_pub/core/shift_depth.h"
 #include "tests/kinect_pub/support/kinect_run.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/private_network.h"
 #include "tests/support/shared_data.h"
 
@@ -105,7 +106,7 @@ TEST_F(FreenectTest, ClientThatAsksForDisparityGetsTheSensorsOwnWords) {
   const std::string file = run_.folder() / "words";
   std::vector<std::string> command = {"env"};
   for (const std::string& variable : fakenect(dump())) command.push_back(variable);
-  for (const std::string& word : {std::string(ROOMWISE_BIN_DIR) + "/../tests/read_kinect",
+  for (const std::string& word : {test_program("read_kinect"),
                                   std::string("freenect://0"), file, std::string("12")}) {
     command.push_back(word);
   }

@@ -10,6 +10,7 @@
 #include "common/frames/frame_decoder.h"
 #include "tests/kinect_pub/support/kinect_run.h"
 #include "tests/kinect_pub/support/made_frames.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/private_network.h"
 
 namespace roomwise {
@@ -206,7 +207,7 @@ class KinectPubRecordingTest : public KinectPubTest {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     std::string said;
-    ASSERT_EQ(run_to_end({std::string(ROOMWISE_BIN_DIR) + "/../tests/record_oni", run_.camera_uri(),
+    ASSERT_EQ(run_to_end({test_program("record_oni"), run_.camera_uri(),
                           oni_, std::to_string(images)},
                          said),
               0)
@@ -258,7 +259,7 @@ TEST(KinectPubReplay, IsRefusedWithTheReason) {
   const std::string log = folder.path() / "in.lcmlog";
   std::ofstream(log).close();
   std::string said;
-  EXPECT_EQ(run_to_end({std::string(ROOMWISE_BIN_DIR) + "/kinect_pub", "--replay", log}, said), 1);
+  EXPECT_EQ(run_to_end({program("kinect_pub"), "--replay", log}, said), 1);
   EXPECT_THAT(said, ::testing::HasSubstr("kinect_pub: has nothing to replay"));
 }
 

@@ -12,6 +12,7 @@
 #include "common/bus/wire.h"
 #include "common/channels.h"
 #include "tests/lcmtypes/examples.h"
+#include "tests/support/build_paths.h"
 
 namespace roomwise {
 namespace {
@@ -38,7 +39,7 @@ Bytes example_bytes() {
 
 template <class Message>
 std::filesystem::path golden_path() {
-  return std::filesystem::path(ROOMWISE_SOURCE_DIR) / "tests/lcmtypes/golden" /
+  return source_folder() / "tests/lcmtypes/golden" /
          (std::string(Message::getTypeName()) + ".hex");
 }
 
@@ -144,7 +145,7 @@ std::vector<std::string> golden_names(std::tuple<Message...>*) {
 TEST(AllMessages, AreWhatTheGoldenFolderHolds) {
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(
-           std::filesystem::path(ROOMWISE_SOURCE_DIR) / "tests/lcmtypes/golden")) {
+           source_folder() / "tests/lcmtypes/golden")) {
     found.push_back(entry.path().filename().string());
   }
   EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(

@@ -8,6 +8,7 @@
 #include "tests/rwlog/images.h"
 #include "tests/rwlog/made_log.h"
 #include "tests/rwlog/written_files.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/child_process.h"
 #include "tests/support/scratch_folder.h"
 
@@ -24,7 +25,7 @@ class Rwlog : public testing::Test {
 
   /// Runs rwlog; its output and status are kept.
   int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), ROOMWISE_BIN_DIR "/rwlog");
+    arguments.insert(arguments.begin(), program("rwlog"));
     return run_to_end(arguments, output_);
   }
   std::string path(const char* name) const { return (folder_.path() / name).string(); }

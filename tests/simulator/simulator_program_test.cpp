@@ -11,6 +11,7 @@
 
 #include "common/bus/lcm_bus.h"
 #include "tests/simulator/support/host_port.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/child_process.h"
 #include "tests/support/private_network.h"
 #include "tests/support/scratch_folder.h"
@@ -45,7 +46,7 @@ class SimulatorProgram : public ::testing::Test {
   static void SetUpTestSuite() { enter_private_network(); }
 
   void start(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command = {std::string(ROOMWISE_BIN_DIR) + "/simulator",
+    std::vector<std::string> command = {program("simulator"),
                                         "--url",
                                         kUrl,
                                         "--scenario",
@@ -61,7 +62,7 @@ class SimulatorProgram : public ::testing::Test {
   }
   /// The empty world with more in it, above.
   void write_scenario(const std::string& more) const {
-    std::ifstream empty(std::string(ROOMWISE_SOURCE_DIR) +
+    std::ifstream empty(source_folder().string() +
                         "/services/simulator/scenarios/empty.toml");
     std::ofstream(scenario) << more << empty.rdbuf();
   }
@@ -70,7 +71,7 @@ class SimulatorProgram : public ::testing::Test {
     return process->wait();
   }
   int run_to_failure(const std::vector<std::string>& more, std::string& said) {
-    std::vector<std::string> command = {std::string(ROOMWISE_BIN_DIR) + "/simulator", "--url", kUrl,
+    std::vector<std::string> command = {program("simulator"), "--url", kUrl,
                                         "--create_port", port.string()};
     command.insert(command.end(), more.begin(), more.end());
     return run_to_end(command, said);

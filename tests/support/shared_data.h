@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdlib>
 #include <filesystem>
+#include "tests/support/build_paths.h"
 
 namespace roomwise {
 
@@ -8,7 +9,7 @@ namespace roomwise {
 /// beside the source tree.
 inline std::filesystem::path shared_data() {
   if (const char* folder = std::getenv("ROOMWISE_DATA")) return folder;
-  return std::filesystem::path(ROOMWISE_SOURCE_DIR) / "../shared/data";
+  return source_folder() / "../shared/data";
 }
 
 }  // namespace roomwise

@@ -7,8 +7,6 @@
 
 namespace roomwise {
 
-std::string program(const std::string& name) { return std::string(ROOMWISE_BIN_DIR) + "/" + name; }
-
 LiveService::LiveService(const std::string& name)
     : name_(name), process_({program(name), "--url", kTestUrl}, folder_.path() / "output") {}
 

@@ -5,6 +5,7 @@
 
 #include "common/bus/log_event.h"
 #include "roomwise/health_t.hpp"
+#include "tests/support/build_paths.h"
 #include "tests/support/child_process.h"
 #include "tests/support/scratch_folder.h"
 
@@ -46,9 +47,6 @@ std::optional<health_t> LiveService::wait_for_health(Enough enough) {
   }
   return std::nullopt;
 }
-
-/// Path of a program of ours.
-std::string program(const std::string& name);
 
 /// Events of `channel` in the log at `path`, in order.
 std::vector<LogEvent> events_on(const std::string& channel, const std::filesystem::path& path);

@@ -150,4 +150,8 @@ FrameRequest FrameDoor::request() const {
   return unpack_request(layout_in(memory_).header.request.load(std::memory_order_relaxed));
 }
 
+std::uint64_t FrameDoor::looks() const {
+  return layout_in(memory_).header.looks.load(std::memory_order_relaxed);
+}
+
 }  // namespace roomwise::simulator

@@ -40,6 +40,9 @@ class FrameDoor {
   /// What the reader asked for last; what it asks of a new camera by default if nobody has.
   FrameRequest request() const;
 
+  /// Grows as long as anybody waits for frames: several times a second.
+  std::uint64_t looks() const;
+
   const std::filesystem::path& path() const { return path_; }
 
  private:

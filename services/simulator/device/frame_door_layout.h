@@ -8,7 +8,7 @@ namespace roomwise::simulator::door {
 // What lies in the file both ends of a frame door map: a Header, then kSlots Slots. Everything the
 // two ends touch at the same time is a lock-free atomic.
 
-inline constexpr std::uint64_t kMagic = 0x31'30'52'4f'4f'44'57'52;  ///< "RWDOOR01"
+inline constexpr std::uint64_t kMagic = 0x32'30'52'4f'4f'44'57'52;  ///< "RWDOOR02"
 inline constexpr int kLargestWidth_px = 640;
 inline constexpr int kLargestHeight_px = 480;
 inline constexpr std::size_t kPixels = std::size_t{kLargestWidth_px} * kLargestHeight_px;
@@ -64,6 +64,7 @@ struct Header {
   Camera depth_camera;
   Camera color_camera;
   std::atomic<std::uint64_t> request;  ///< written by the reader: see pack_request
+  std::atomic<std::uint64_t> looks;    ///< grows while any reader waits for a frame
   std::atomic<std::uint64_t> newest;   ///< number of the newest whole frame; 0: none yet
   std::atomic<std::uint32_t> wake;     ///< futex: changes with every frame
 };
@@ -75,10 +76,5 @@ struct Layout {
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
-
-/// The image sizes that the door has room for.
-constexpr bool is_offered(int width_px, int height_px) {
-  return (width_px == 640 && height_px == 480) || (width_px == 320 && height_px == 240);
-}
 
 }  // namespace roomwise::simulator::door

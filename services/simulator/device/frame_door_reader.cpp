@@ -93,6 +93,7 @@ bool FrameDoorReader::is_served() const { return door::is_locked(file_); }
 FrameDoorReader::Wait FrameDoorReader::next(DoorFrame& frame, std::chrono::milliseconds patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (true) {
+    layout_->header.looks.fetch_add(1, std::memory_order_relaxed);
     const std::uint32_t seen = layout_->header.wake.load(std::memory_order_acquire);
     if (copy_next(frame)) return Wait::kFrame;
     const auto left =

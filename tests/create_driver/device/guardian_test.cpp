@@ -11,6 +11,7 @@
 #include "services/create_driver/core/oi_encoder.h"
 #include "services/create_driver/device/serial_port.h"
 #include "tests/create_driver/support/scripted_robot.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace roomwise::create {
@@ -24,7 +25,7 @@ class GuardianTest : public ::testing::Test {
   void SetUp() override {
     robot_.emplace(folder_.path() / "create");
     port_.emplace(folder_.path() / "create", 115200);
-    guardian_.emplace(std::filesystem::path(ROOMWISE_BIN_DIR) / "create_guardian", port_->fd());
+    guardian_.emplace(program("create_guardian"), port_->fd());
     Bytes bytes{128, 131};
     append_drive({0.2, 0.2}, bytes);
     ASSERT_TRUE(guardian_->beat());

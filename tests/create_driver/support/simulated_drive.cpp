@@ -18,7 +18,7 @@ constexpr std::int64_t kLastPart_us = 500'000;
 class Listener {
  public:
   Listener(const DriveSetup& setup, SimulatedDrive& drive)
-      : setup_(setup), drive_(drive), bus_(kTestUrl) {
+      : setup_(setup), drive_(drive), bus_(setup.url) {
     keep(channels::kCreateState, drive.states);
     keep(channels::kOdometry, drive.odometry);
     keep(channels::kTruth, drive.truth);
@@ -26,8 +26,8 @@ class Listener {
     bus_.every(std::chrono::milliseconds(20), [this](Time) { command(); });
   }
 
-  void listen(double time_s) {
-    end_ = utime_of(bus_.now()) + std::llround(time_s * 1e6);
+  void listen() {
+    end_ = utime_of(bus_.now()) + std::llround(setup_.time_s * 1e6);
     bus_.run();
   }
 
@@ -53,7 +53,13 @@ class Listener {
     command.allowed_speed_mps = setup_.speed_mps;
     command.allowed_turn_rate_radps = setup_.turn_rate_radps;
     bus_.publish(channels::kVelCmd, command);
-    if (command.utime > end_) bus_.stop();
+    if (command.utime > end_ && (drive_.ends_driving() || patience_is_over(command.utime))) {
+      bus_.stop();
+    }
+  }
+
+  bool patience_is_over(std::int64_t utime) const {
+    return utime > end_ + std::llround(setup_.patience_s * 1e6);
   }
 
   const DriveSetup& setup_;
@@ -69,6 +75,10 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
 }
 
 }  // namespace
+
+create_state_t SimulatedDrive::last_state() const {
+  return states.empty() ? create_state_t{} : states.back();
+}
 
 std::int64_t SimulatedDrive::count(const std::string& name) const {
   const auto found = counters.find(name);
@@ -100,13 +110,14 @@ SimulatedDrive drive_in_simulator(const DriveSetup& setup) {
   const std::string params = folder.path() / "params.toml";
   std::ofstream(params) << "port = \"" << port << "\"\n" << setup.driver_params;
   SimulatedDrive drive;
-  ChildProcess simulator(std::vector<std::string>{program("simulator"), "--url", kTestUrl,
-                                                  "--scenario", "empty", "--create_port", port} +
-                             setup.simulator_arguments,
-                         folder.path() / "simulator-output");
-  ChildProcess driver({program("create_driver"), "--url", kTestUrl, "--params", params},
+  ChildProcess simulator(
+      std::vector<std::string>{program("simulator"), "--url", setup.url, "--scenario", "empty",
+                               "--create_port", port, "--kinect_door", folder.path() / "kinect"} +
+          setup.simulator_arguments,
+      folder.path() / "simulator-output");
+  ChildProcess driver({program("create_driver"), "--url", setup.url, "--params", params},
                       folder.path() / "driver-output");
-  Listener(setup, drive).listen(setup.time_s);
+  Listener(setup, drive).listen();
   driver.send_signal(SIGTERM);
   driver.wait();
   drive.output = driver.output() + simulator.output();

@@ -15,6 +15,7 @@ struct SimulatedDrive {
   std::map<std::string, std::int64_t> counters;  ///< of create_driver, from its last HEALTH
   std::string output;                            ///< what create_driver said
 
+  create_state_t last_state() const;
   std::int64_t count(const std::string& name) const;
   /// Whether every state of the last half second says so.
   bool ends_driving() const;
@@ -32,14 +33,16 @@ struct SimulatedDrive {
 
 /// How to run one: VEL_CMD asks for the same all the time.
 struct DriveSetup {
+  std::string url;
   std::vector<std::string> simulator_arguments;
   std::string driver_params;
   double speed_mps = 0.1;
   double turn_rate_radps = 0.8;
-  double time_s = 6.0;
+  double time_s = 6.0;       ///< at least
+  double patience_s = 20.0;  ///< so much longer, until the robot has driven for half a second
 };
 
-/// Runs simulator (scenario "empty") and create_driver on it for a while, on kTestUrl.
+/// Runs simulator (scenario "empty") and create_driver on it for a while.
 SimulatedDrive drive_in_simulator(const DriveSetup& setup);
 
 }  // namespace roomwise

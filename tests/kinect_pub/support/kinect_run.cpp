@@ -3,13 +3,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include "tests/support/build_paths.h"
 
 namespace roomwise {
 namespace {
 
 constexpr const char* kUrl = "udpm://239.255.76.67:27668?ttl=0&recv_buf_size=212992";
-
-std::string program(const std::string& name) { return std::string(ROOMWISE_BIN_DIR) + "/" + name; }
 
 }  // namespace
 
@@ -17,7 +16,7 @@ KinectRun::KinectRun() { ::setenv("ROOMWISE_SIM_KINECT", door_.c_str(), 1); }
 
 void KinectRun::start_camera() {
   camera_ = std::make_unique<ChildProcess>(
-      std::vector<std::string>{program("../tests/made_camera"), door_.string()},
+      std::vector<std::string>{test_program("made_camera"), door_.string()},
       folder_.path() / "camera-said");
 }
 

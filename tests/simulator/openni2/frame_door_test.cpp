@@ -11,6 +11,7 @@
 
 #include "services/simulator/device/frame_door_reader.h"
 #include "tests/kinect_pub/support/made_frames.h"
+#include "tests/support/build_paths.h"
 #include "tests/support/child_process.h"
 #include "tests/support/scratch_folder.h"
 
@@ -142,7 +143,7 @@ TEST_F(FrameDoorTest, ReaderSeesAClosedDoorAndTheNextOneIsAnother) {
 }
 
 TEST_F(FrameDoorTest, KilledWriterIsSeenGoneAndReplaced) {
-  ChildProcess camera({std::string(ROOMWISE_BIN_DIR) + "/../tests/made_camera", path_},
+  ChildProcess camera({test_program("made_camera"), path_},
                       folder_.path() / "said");
   while (!std::filesystem::exists(path_)) std::this_thread::sleep_for(milliseconds(5));
   FrameDoorReader reader(path_);

@@ -1,5 +1,6 @@
 // The reader is strict: what it does not know it refuses, naming file, line and key.
 #include "services/simulator/scenario/scenario.h"
+#include "tests/support/build_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -192,7 +193,7 @@ TEST(Scenario, NamesTheFileThatCannotBeRead) {
 
 TEST(FindScenario, TakesANameOrAFile) {
   const std::filesystem::path folder =
-      std::filesystem::path(ROOMWISE_SOURCE_DIR) / "services/simulator/scenarios";
+      source_folder() / "services/simulator/scenarios";
   EXPECT_EQ(find_scenario("empty", folder), folder / "empty.toml");
   EXPECT_EQ(find_scenario((folder / "empty.toml").string(), "/elsewhere"), folder / "empty.toml");
   try {

@@ -10,6 +10,7 @@
 #include "services/simulator/core/path_plan.h"
 #include "services/simulator/scenario/scenario.h"
 #include "tests/simulator/scenario/visible_landmarks.h"
+#include "tests/support/build_paths.h"
 
 namespace roomwise::simulator {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kMargin_m = 0.10;
 
 Scene scene_named(const std::string& name) {
   const std::filesystem::path folder =
-      std::filesystem::path(ROOMWISE_SOURCE_DIR) / "services/simulator/scenarios";
+      source_folder() / "services/simulator/scenarios";
   return load_scenario(find_scenario(name, folder)).scene;
 }
 
