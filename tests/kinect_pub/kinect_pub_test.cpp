@@ -121,7 +121,7 @@ TEST_F(KinectPubTest, CameraMountAndOwnIntrinsicsGoIntoEveryFrame) {
 TEST_F(KinectPubTest, CameraThatDiesIsMissedAndUsedAgainWhenItReturns) {
   run_.start_camera();
   run_.start_kinect_pub("");
-  ASSERT_EQ(run_.frames(40).size(), 40U) << run_.kinect_pub().output();
+  ASSERT_EQ(run_.frames(100).size(), 100U) << run_.kinect_pub().output();
   run_.kill_camera();
   const auto lost = run_.status_of_state(device_status_t::STATE_LOST);
   ASSERT_TRUE(lost) << run_.kinect_pub().output();

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "services/kinect_pub/core/camera_geometry.h"
 #include "services/kinect_pub/device/openni_error.h"
@@ -39,7 +41,20 @@ bool is_usable(const PinholeCamera& camera) {
          camera.fy_px > 0.0;
 }
 
+/// OpenNI2's player (2.2.0.33) looks at its streams while they are freed, and crashes: a recording
+/// that has played stays open until the process ends.
+void keep_open(std::unique_ptr<OpenedStreams> streams) {
+  static auto& kept = *new std::vector<std::unique_ptr<OpenedStreams>>();
+  kept.push_back(std::move(streams));
+}
+
 }  // namespace
+
+void OpenedStreams::close() {
+  depth.destroy();
+  color.destroy();
+  device.close();
+}
 
 OpenNiCamera::OpenNiCamera(OpenNiLibrary& library, const CameraRequest& request)
     : library_(library), request_(request), pairing_(request.pair_tolerance_us) {
@@ -52,12 +67,19 @@ OpenNiCamera::OpenNiCamera(OpenNiLibrary& library, const CameraRequest& request)
     if (request_.use_color) start(color_, "colour");
     describe();
   } catch (...) {
-    release();
+    streams_->close();
     throw;
   }
 }
 
-OpenNiCamera::~OpenNiCamera() { release(); }
+OpenNiCamera::~OpenNiCamera() {
+  pairing_ = Pairing(request_.pair_tolerance_us);  // frames must go before their streams
+  if (facts_.is_recording) {
+    keep_open(std::move(streams_));
+  } else {
+    streams_->close();
+  }
+}
 
 void OpenNiCamera::refuse(const std::string& what) const {
   const std::string device = facts_.uri.empty() ? request_.uri : facts_.name + " " + facts_.uri;
@@ -143,13 +165,6 @@ void OpenNiCamera::describe() {
   if (!is_usable(facts_.depth_camera) || (request_.use_color && !is_usable(facts_.color_camera))) {
     refuse("states no field of view");
   }
-}
-
-void OpenNiCamera::release() {
-  pairing_ = Pairing(request_.pair_tolerance_us);  // frames must go before their streams
-  depth_.destroy();
-  color_.destroy();
-  device_.close();
 }
 
 OpenNiCamera::Read OpenNiCamera::read(std::chrono::milliseconds patience, CapturedFrame& frame) {

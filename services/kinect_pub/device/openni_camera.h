@@ -2,6 +2,7 @@
 #include <OpenNI.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,15 @@ struct CameraFacts {
   bool is_recording = false;
   PinholeCamera depth_camera;
   PinholeCamera color_camera;
+};
+
+/// A device and its streams. Streams go before their device.
+struct OpenedStreams {
+  openni::Device device;
+  openni::VideoStream depth;
+  openni::VideoStream color;
+
+  void close();
 };
 
 /// One opened OpenNI2 device with its depth and colour streams running. Used by one thread.
@@ -75,15 +85,15 @@ class OpenNiCamera {
   void set_registration();
   void start(openni::VideoStream& stream, const char* name);
   void describe();
-  void release();
   std::optional<Pairing::Pair> take_image(int stream_index);
   bool fill(const Pairing::Pair& pair, CapturedFrame& frame);
 
   OpenNiLibrary& library_;
   CameraRequest request_;
-  openni::Device device_;
-  openni::VideoStream depth_;
-  openni::VideoStream color_;
+  std::unique_ptr<OpenedStreams> streams_ = std::make_unique<OpenedStreams>();
+  openni::Device& device_ = streams_->device;
+  openni::VideoStream& depth_ = streams_->depth;
+  openni::VideoStream& color_ = streams_->color;
   CameraFacts facts_;
   Pairing pairing_;
   bool depth_mirrored_ = false;

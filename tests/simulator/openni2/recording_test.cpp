@@ -46,7 +46,8 @@ std::int64_t number_of(const std::vector<std::uint16_t>& depth, std::int64_t cou
 
 TEST_F(RecordingTest, PlaysBackPixelExact) {
   record(12);
-  OpenedCamera camera(oni_);
+  // Never closed: OpenNI2's player may look at streams that it has just freed.
+  static OpenedCamera& camera = *new OpenedCamera(oni_);
   camera.device.getPlaybackControl()->setSpeed(-1.0F);  // as fast as it is read
   camera.device.getPlaybackControl()->setRepeatEnabled(false);
   EXPECT_FALSE(camera.depth.getMirroringEnabled());
