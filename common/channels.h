@@ -30,16 +30,17 @@ inline constexpr Channel<velocity_command_t> kVelCmd{"VEL_CMD", "50", "safety_sv
 inline constexpr Channel<pose_t> kPose{"POSE", ">= 30", "ekf_svc", "all"};
 inline constexpr Channel<landmark_map_t> kLandmarkMap{"LANDMARK_MAP", "1 + on change", "ekf_svc", "pilot_svc, viewer, rwlog"};
 inline constexpr Channel<truth_t> kTruth{"TRUTH", "60", "simulator", "viewer, rwlog"};
+inline constexpr Channel<segmentation_t> kTrueSegments{"TRUE_SEGMENTS", "30, if asked for", "simulator", "rwlog"};
 inline constexpr Channel<health_t> kHealth{"HEALTH", "1", "every process", "viewer, rwlog"};
 inline constexpr Channel<params_t> kParams{"PARAMS", "1", "every process", "viewer, rwlog"};
 // clang-format on
 }  // namespace channels
 
 /// Every channel, for tools that must treat them all.
-inline constexpr auto kAllChannels =
-    std::make_tuple(channels::kKinectFrame, channels::kKinectStatus, channels::kLandmarks,
-                    channels::kSegments, channels::kSegmentTrain, channels::kCreateState,
-                    channels::kOdometry, channels::kVelCmd, channels::kPose, channels::kLandmarkMap,
-                    channels::kTruth, channels::kHealth, channels::kParams);
+inline constexpr auto kAllChannels = std::make_tuple(
+    channels::kKinectFrame, channels::kKinectStatus, channels::kLandmarks, channels::kSegments,
+    channels::kSegmentTrain, channels::kCreateState, channels::kOdometry, channels::kVelCmd,
+    channels::kPose, channels::kLandmarkMap, channels::kTruth, channels::kTrueSegments,
+    channels::kHealth, channels::kParams);
 
 }  // namespace roomwise

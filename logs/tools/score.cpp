@@ -10,6 +10,7 @@
 #include "logs/tools/score_map.h"
 #include "logs/tools/score_trajectory.h"
 #include "logs/tools/subcommands.h"
+#include "logs/tools/true_floor.h"
 
 namespace roomwise {
 namespace {
@@ -102,15 +103,21 @@ struct ScoreOptions {
 
 void run_score(const ScoreOptions& options) {
   Recording recording;
+  TrueFloor true_floor;
   std::optional<FloorMasks> masks;
   if (!options.floor_masks.empty()) masks.emplace(options.floor_masks);
   const LogReading reading = replay_log(options.log, [&](Bus& bus) {
     gather(bus, recording);
-    if (masks) masks->gather(bus);
+    if (masks) {
+      masks->gather(bus);
+    } else {
+      true_floor.gather(bus);
+    }
   });
   sort_by_time(recording);
   Scores scores = score_recording(recording);
-  if (masks) std::ranges::copy(score_floor(masks->frames()), std::back_inserter(scores));
+  const auto& floor = masks ? masks->frames() : true_floor.frames();
+  std::ranges::copy(score_floor(floor), std::back_inserter(scores));
   if (!scores.empty()) {
     fmt::print("{}", options.json ? scores_as_json(scores) : scores_as_text(scores));
     std::fflush(stdout);
@@ -119,7 +126,7 @@ void run_score(const ScoreOptions& options) {
   if (scores.empty()) {
     throw std::runtime_error(
         fmt::format("{}: nothing to score: needs POSE or ODOMETRY with TRUTH, LANDMARKS of frames, "
-                    "LANDMARK_MAP, or SEGMENTS with --floor-masks",
+                    "LANDMARK_MAP, or SEGMENTS with TRUE_SEGMENTS or --floor-masks",
                     options.log.string()));
   }
 }

@@ -1,9 +1,9 @@
 #pragma once
 #include "common/bus/bus.h"
 #include "common/frames/frame_decoder.h"
+#include "common/frames/label_encoder.h"
 #include "services/segment_svc/color_memory.h"
 #include "services/segment_svc/core/segmenter.h"
-#include "services/segment_svc/label_codec.h"
 
 namespace roomwise {
 

@@ -24,8 +24,8 @@ struct CameraMoment {
 };
 
 /// The simulated camera at work: renders the newest moment on a thread of its own and puts the
-/// frame into the frame door. A moment that comes before the last one was begun replaces it. Nothing
-/// is rendered while nobody waits for frames.
+/// frame into the frame door. A moment that comes before the last one was begun replaces it.
+/// Nothing is rendered while nobody waits for frames.
 class CameraFeed {
  public:
   /// `scene` must outlive it. Throws as FrameDoor and SimulatedKinect do.

@@ -22,6 +22,7 @@ struct SimulatorParams {
   OpenInterfaceParams interface;
   std::string camera_size = "640x480";  ///< of recorded drives; live, the camera's reader chooses
   bool camera_registered = true;        ///< the same
+  bool true_labels = false;             ///< recorded drives: a true label image with every frame
   DepthSensorParams depth;
   ColorSensorParams color;
 
@@ -58,6 +59,7 @@ struct SimulatorParams {
 
     field("camera_size", camera_size, {"640x480", "320x240"});
     field("camera_registered", camera_registered);
+    field("true_labels", true_labels);
     depth.visit_fields(field);
     color.visit_fields(field);
   }

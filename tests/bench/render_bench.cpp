@@ -19,8 +19,8 @@ constexpr int kLanes = 16;
 constexpr int kTile_px = 4;
 
 const Scene& living_room() {
-  static const Scenario scenario = load_scenario(source_folder().string() +
-                                                 "/services/simulator/scenarios/living_room.toml");
+  static const Scenario scenario =
+      load_scenario(source_folder().string() + "/services/simulator/scenarios/living_room.toml");
   return scenario.scene;
 }
 

@@ -21,9 +21,8 @@ class CreateCalibrate : public ::testing::Test {
     const std::string params = folder_.path() / "params.toml";
     std::ofstream(params) << "port = \"" << (folder_.path() / "create").string() << "\"\n";
     std::ofstream(folder_.path() / "answers") << answers;
-    const std::string command = program("create_calibrate") + " --params " +
-                                params + " --result " + result().string() +
-                                " --distance 0.3 --turns 0.5 < " +
+    const std::string command = program("create_calibrate") + " --params " + params + " --result " +
+                                result().string() + " --distance 0.3 --turns 0.5 < " +
                                 (folder_.path() / "answers").string();
     return run_to_end({"sh", "-c", command}, said_);
   }

@@ -106,8 +106,8 @@ TEST_F(FreenectTest, ClientThatAsksForDisparityGetsTheSensorsOwnWords) {
   const std::string file = run_.folder() / "words";
   std::vector<std::string> command = {"env"};
   for (const std::string& variable : fakenect(dump())) command.push_back(variable);
-  for (const std::string& word : {test_program("read_kinect"),
-                                  std::string("freenect://0"), file, std::string("12")}) {
+  for (const std::string& word :
+       {test_program("read_kinect"), std::string("freenect://0"), file, std::string("12")}) {
     command.push_back(word);
   }
   std::string said;

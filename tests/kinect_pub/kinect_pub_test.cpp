@@ -207,10 +207,10 @@ class KinectPubRecordingTest : public KinectPubTest {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     std::string said;
-    ASSERT_EQ(run_to_end({test_program("record_oni"), run_.camera_uri(),
-                          oni_, std::to_string(images)},
-                         said),
-              0)
+    ASSERT_EQ(
+        run_to_end({test_program("record_oni"), run_.camera_uri(), oni_, std::to_string(images)},
+                   said),
+        0)
         << said;
     run_.kill_camera();
   }

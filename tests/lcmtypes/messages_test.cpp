@@ -39,8 +39,7 @@ Bytes example_bytes() {
 
 template <class Message>
 std::filesystem::path golden_path() {
-  return source_folder() / "tests/lcmtypes/golden" /
-         (std::string(Message::getTypeName()) + ".hex");
+  return source_folder() / "tests/lcmtypes/golden" / (std::string(Message::getTypeName()) + ".hex");
 }
 
 template <class Message>
@@ -144,8 +143,8 @@ std::vector<std::string> golden_names(std::tuple<Message...>*) {
 
 TEST(AllMessages, AreWhatTheGoldenFolderHolds) {
   std::vector<std::string> found;
-  for (const auto& entry : std::filesystem::directory_iterator(
-           source_folder() / "tests/lcmtypes/golden")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(source_folder() / "tests/lcmtypes/golden")) {
     found.push_back(entry.path().filename().string());
   }
   EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(

@@ -4,8 +4,11 @@
 #include <rapidcheck/gtest.h>
 #include <zstd.h>
 
+#include "common/bus/log_bus.h"
 #include "logs/tools/label_image.h"
 #include "logs/tools/score.h"
+#include "logs/tools/true_floor.h"
+#include "tests/support/events.h"
 
 namespace roomwise {
 namespace {
@@ -103,6 +106,31 @@ RC_GTEST_PROP(LabelImage, AnyBytesAreSafe, (std::vector<std::uint8_t> bytes, boo
   message.label_encoding = zstd ? segmentation_t::ENCODING_ZSTD : segmentation_t::ENCODING_RAW8;
   const auto labels = decode_labels(message);
   if (labels) RC_ASSERT(labels->total() == 16U);
+}
+
+segmentation_t of_frame(std::int64_t frame_seq, std::vector<std::uint8_t> labels) {
+  segmentation_t message = labels_message(static_cast<int>(labels.size()), 1, labels);
+  message.frame_seq = frame_seq;
+  return message;
+}
+
+TEST(TrueFloor, ComparesLabelsOfTheSameFrameInWhicheverOrderTheyCome) {
+  const std::vector<LogEvent> events{
+      event_of(channels::kTrueSegments, 1, of_frame(7, {kFloor, kFloor, 0, 255})),
+      event_of(channels::kSegments, 2, of_frame(8, {kFloor})),
+      event_of(channels::kSegments, 3, of_frame(7, {kFloor, 0, kFloor, kFloor})),
+      event_of(channels::kTrueSegments, 4, of_frame(8, {100})),
+      event_of(channels::kSegments, 5, of_frame(9, {kFloor}))};
+  std::vector<LogEvent> output;
+  LogBus bus(events, output);
+  TrueFloor floor;
+  floor.gather(bus);
+  bus.run();
+  ASSERT_EQ(floor.frames().size(), 2U);
+  EXPECT_EQ(floor.frames()[0].floor_called_floor, 1);
+  EXPECT_EQ(floor.frames()[0].floor_called_other, 1);
+  EXPECT_EQ(floor.frames()[0].other_called_floor, 1) << "the pixel of unknown truth is left out";
+  EXPECT_EQ(floor.frames()[1].other_called_floor, 1);
 }
 
 }  // namespace

@@ -46,13 +46,8 @@ class SimulatorProgram : public ::testing::Test {
   static void SetUpTestSuite() { enter_private_network(); }
 
   void start(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command = {program("simulator"),
-                                        "--url",
-                                        kUrl,
-                                        "--scenario",
-                                        "empty",
-                                        "--create_port",
-                                        port.string()};
+    std::vector<std::string> command = {
+        program("simulator"), "--url", kUrl, "--scenario", "empty", "--create_port", port.string()};
     command.insert(command.end(), more.begin(), more.end());
     process = std::make_unique<ChildProcess>(command, folder.path() / "output");
     for (int i = 0; i < 1000 && !std::filesystem::exists(port) && process->is_running(); ++i) {
@@ -62,8 +57,7 @@ class SimulatorProgram : public ::testing::Test {
   }
   /// The empty world with more in it, above.
   void write_scenario(const std::string& more) const {
-    std::ifstream empty(source_folder().string() +
-                        "/services/simulator/scenarios/empty.toml");
+    std::ifstream empty(source_folder().string() + "/services/simulator/scenarios/empty.toml");
     std::ofstream(scenario) << more << empty.rdbuf();
   }
   int stop(int signal = SIGINT) {
@@ -71,8 +65,8 @@ class SimulatorProgram : public ::testing::Test {
     return process->wait();
   }
   int run_to_failure(const std::vector<std::string>& more, std::string& said) {
-    std::vector<std::string> command = {program("simulator"), "--url", kUrl,
-                                        "--create_port", port.string()};
+    std::vector<std::string> command = {program("simulator"), "--url", kUrl, "--create_port",
+                                        port.string()};
     command.insert(command.end(), more.begin(), more.end());
     return run_to_end(command, said);
   }

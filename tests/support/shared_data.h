@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdlib>
 #include <filesystem>
+
 #include "tests/support/build_paths.h"
 
 namespace roomwise {

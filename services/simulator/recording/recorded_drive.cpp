@@ -7,6 +7,8 @@
 #include "common/bus/log_file.h"
 #include "common/channels.h"
 #include "common/frames/frame_encoder.h"
+#include "common/frames/label_encoder.h"
+#include "services/simulator/core/kinect/true_labels.h"
 #include "services/simulator/core/path_follower.h"
 #include "services/simulator/recording/recording_host.h"
 #include "services/simulator/render/simulated_kinect.h"
@@ -60,12 +62,24 @@ class RecordedCamera {
     return message_;
   }
 
+  /// What a perfect segmentation of the last frame would say: its label image, nothing else.
+  const segmentation_t& true_segments() {
+    true_labels(kinect_.view(), frame_.depth.steps, labels_);
+    true_segments_.utime = message_.utime;
+    true_segments_.seq = true_segments_.frame_seq = message_.seq;
+    label_encoder_.encode(labels_, frame_.depth.width_px, frame_.depth.height_px, true_segments_);
+    return true_segments_;
+  }
+
  private:
   SimulatedKinect kinect_;
   KinectMode mode_;
   FrameEncoder encoder_;
   RgbdFrame frame_;
   kinect_frame_t message_{};
+  LabelEncoder label_encoder_;
+  std::vector<std::uint8_t> labels_;
+  segmentation_t true_segments_{};
 };
 
 class RecordedDrive {
@@ -74,7 +88,8 @@ class RecordedDrive {
       : world_(world_of(params)),
         camera_(params, world_.scene()),
         follower_({world_.scene().start, path_of(world_.scene(), request.path)}, kWheelBase_m),
-        log_(log) {}
+        log_(log),
+        with_true_labels_(params.true_labels) {}
 
   DriveSummary run(Duration longest) {
     while (!follower_.done() && (longest == Duration{0} || world_.now() < longest)) {
@@ -110,6 +125,7 @@ class RecordedDrive {
     if (is_due(now, kTruthRate_hz)) write_truth(now, stamp);
     if (is_due(now, kCameraRate_hz)) {
       log_.write(channels::kKinectFrame, stamp, camera_.capture(world_, stamp));
+      if (with_true_labels_) log_.write(channels::kTrueSegments, stamp, camera_.true_segments());
       ++frames_;
     }
   }
@@ -125,6 +141,7 @@ class RecordedDrive {
   PathFollower follower_;
   RecordingHost host_;
   LogWriter& log_;
+  bool with_true_labels_;
   int turn_ = 0;
   std::int64_t frames_ = 0;
   std::int64_t truth_seq_ = 0;

@@ -70,7 +70,7 @@ rc::Gen<Image> surfaces() {
         const int spacing = 65535 / distinct;
         int index = below(distinct);
         int hole_left_px = 0;
-        return make_image(width_px, height_px, [&](int, int) {
+        return make_image(width_px, height_px, [&, distinct = distinct, noise = noise](int, int) {
           if (hole_left_px > 0) return hole_left_px--, 0;
           if (below(40) == 0) hole_left_px = below(30);
           if (below(60) == 0) index = below(distinct);

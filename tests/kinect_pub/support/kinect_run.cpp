@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+
 #include "tests/support/build_paths.h"
 
 namespace roomwise {

@@ -113,23 +113,24 @@ TEST(GeometryLabels, ColorChangesNothing) {
   EXPECT_EQ(bright.labels, dark.labels);
 }
 
-TEST(GeometryLabels, TellWallBoxAndFloorApart) {
+TEST(GeometryLabels, TellWallsAndWhatStandsFromFloor) {
   const RgbdFrame frame = furnished_frame({.height_m = 0.5, .pitch_rad = 0.1});
   const auto labels = label(frame);
   int wall = 0;
   int wall_right = 0;
   int box = 0;
-  int box_right = 0;
+  int box_stands = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == kUnknown) continue;
     const std::uint8_t red = frame.color.rgb[3 * i];
     wall += red >= 190 ? 1 : 0;
     wall_right += red >= 190 && labels[i] == kWall ? 1 : 0;
     box += red == 60 ? 1 : 0;
-    box_right += red == 60 && labels[i] == kObstacle ? 1 : 0;
+    box_stands += red == 60 && stands(labels[i]) ? 1 : 0;
   }
   EXPECT_GT(wall_right, 0.9 * wall);
   EXPECT_GE(box, 1000);
+  EXPECT_GT(box_stands, 0.9 * box);
 }
 
 TEST(GeometryLabels, LowBoxesAreObstaclesNotWalls) {

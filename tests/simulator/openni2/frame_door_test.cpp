@@ -143,8 +143,7 @@ TEST_F(FrameDoorTest, ReaderSeesAClosedDoorAndTheNextOneIsAnother) {
 }
 
 TEST_F(FrameDoorTest, KilledWriterIsSeenGoneAndReplaced) {
-  ChildProcess camera({test_program("made_camera"), path_},
-                      folder_.path() / "said");
+  ChildProcess camera({test_program("made_camera"), path_}, folder_.path() / "said");
   while (!std::filesystem::exists(path_)) std::this_thread::sleep_for(milliseconds(5));
   FrameDoorReader reader(path_);
   ASSERT_EQ(reader.next(frame_, milliseconds(10'000)), Wait::kFrame);

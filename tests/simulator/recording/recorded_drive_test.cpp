@@ -69,6 +69,21 @@ TEST_F(RecordedDriveTest, HoldsWhatALiveSystemWouldHaveRecorded) {
   EXPECT_EQ(messages("a.lcmlog", channels::kCreateState).size(), odometry.size() + 1);
 }
 
+TEST_F(RecordedDriveTest, EveryFrameHasItsTrueLabelsIfAskedFor) {
+  record("plain.lcmlog", 0.2);
+  EXPECT_TRUE(messages("plain.lcmlog", channels::kTrueSegments).empty());
+  params_.true_labels = true;
+  record("labelled.lcmlog", 0.2);
+  const auto frames = messages("labelled.lcmlog", channels::kKinectFrame);
+  const auto labels = messages("labelled.lcmlog", channels::kTrueSegments);
+  ASSERT_EQ(frames.size(), labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    EXPECT_EQ(labels[i].frame_seq, frames[i].seq);
+    EXPECT_EQ(labels[i].utime, frames[i].utime);
+    EXPECT_EQ(labels[i].label_width_px, frames[i].depth_width_px);
+  }
+}
+
 TEST_F(RecordedDriveTest, TheServicesCanDecodeItsFrames) {
   record("a.lcmlog", 0.2);
   FrameDecoder decoder(ColorUse::kDecode);

@@ -1,12 +1,13 @@
 // The reader is strict: what it does not know it refuses, naming file, line and key.
 #include "services/simulator/scenario/scenario.h"
-#include "tests/support/build_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <string>
+
+#include "tests/support/build_paths.h"
 
 namespace roomwise::simulator {
 namespace {
@@ -192,8 +193,7 @@ TEST(Scenario, NamesTheFileThatCannotBeRead) {
 }
 
 TEST(FindScenario, TakesANameOrAFile) {
-  const std::filesystem::path folder =
-      source_folder() / "services/simulator/scenarios";
+  const std::filesystem::path folder = source_folder() / "services/simulator/scenarios";
   EXPECT_EQ(find_scenario("empty", folder), folder / "empty.toml");
   EXPECT_EQ(find_scenario((folder / "empty.toml").string(), "/elsewhere"), folder / "empty.toml");
   try {

@@ -19,8 +19,7 @@ constexpr double kRobotRadius_m = 0.17;
 constexpr double kMargin_m = 0.10;
 
 Scene scene_named(const std::string& name) {
-  const std::filesystem::path folder =
-      source_folder() / "services/simulator/scenarios";
+  const std::filesystem::path folder = source_folder() / "services/simulator/scenarios";
   return load_scenario(find_scenario(name, folder)).scene;
 }
 

@@ -1,4 +1,4 @@
-#include "services/segment_svc/label_codec.h"
+#include "common/frames/label_encoder.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
