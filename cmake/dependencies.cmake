@@ -39,7 +39,7 @@ add_library(openni2_headers INTERFACE)
 target_include_directories(openni2_headers SYSTEM INTERFACE ${OPENNI2_INCLUDE_DIRS})
 add_library(openni2_client INTERFACE)
 target_link_libraries(openni2_client INTERFACE openni2_headers ${OPENNI2_LIBRARY})
-if(CMAKE_CXX_FLAGS_DEBUG MATCHES "sanitize=address")
+if(CMAKE_CXX_FLAGS_DEBUG MATCHES "sanitize=.*address")
   target_sources(openni2_client INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:
     ${CMAKE_SOURCE_DIR}/tests/support/openni2_leaks.cpp>)
 endif()
