@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "tests/simulator/support/disparity_statistics.h"
 #include "tests/simulator/support/simulated_disparity.h"
@@ -65,7 +67,15 @@ std::vector<DisparityImage> resting_camera() {
   return images;
 }
 
+/// For the reader of a report: what was measured.
+void report(const std::string& figure, double simulated, double recorded) {
+  std::cout << "    " << figure << ": simulated " << simulated << ", recorded " << recorded << "\n";
+}
+
 void expect_alike(const PlaneScatter& simulated, const PlaneScatter& recorded) {
+  report("scatter about a plane, quanta", simulated.sigma_quanta, recorded.sigma_quanta);
+  report("second difference, quanta", simulated.second_difference_quanta,
+         recorded.second_difference_quanta);
   EXPECT_GT(recorded.windows, 1000);
   EXPECT_NEAR(simulated.sigma_quanta, recorded.sigma_quanta, kShare * recorded.sigma_quanta);
   EXPECT_NEAR(simulated.second_difference_quanta, recorded.second_difference_quanta,
@@ -86,6 +96,7 @@ TEST(RecordedDisparity, OfARestingCameraScattersInSpaceAndTimeAsTheSimulatedOne)
   const std::vector<DisparityImage> simulated = disparities_of_wall(), recorded = resting_camera();
   expect_alike(plane_scatter(simulated), plane_scatter(recorded));
   const double recorded_quanta = frame_difference_quanta(recorded);
+  report("change from frame to frame, quanta", frame_difference_quanta(simulated), recorded_quanta);
   EXPECT_NEAR(frame_difference_quanta(simulated), recorded_quanta, kShare * recorded_quanta);
 }
 
