@@ -10,6 +10,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/channels.h"
 #include "tests/create_driver/support/scripted_robot.h"
+#include "tests/support/drive_command.h"
 #include "tests/support/private_network.h"
 #include "tests/system/live_service.h"
 
@@ -52,14 +53,10 @@ class CommandSource {
  private:
   void run(double speed_mps, double turn_rate_radps) {
     LcmBus bus(kTestUrl);
-    velocity_command_t command{};
-    command.session = wall_utime();
-    command.allowed_speed_mps = speed_mps;
-    command.allowed_turn_rate_radps = turn_rate_radps;
+    const std::int64_t session = wall_utime();
+    std::int64_t sequence = 0;
     while (!is_over_) {
-      command.utime = wall_utime();
-      command.expiry_utime = command.utime + 200'000;
-      ++command.sequence;
+      auto command = drive_command(wall_utime(), session, ++sequence, speed_mps, turn_rate_radps);
       bus.publish(channels::kVelCmd, command);
       std::this_thread::sleep_for(milliseconds(20));
     }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "tests/support/build_paths.h"
+#include "tests/support/drive_command.h"
 #include "tests/system/live_service.h"
 
 namespace roomwise {
@@ -40,6 +41,10 @@ void HardwareChain::start(Part part) {
   const std::string output = folder_.path() / ("output-" + std::to_string(part));
   processes_[part].reset();
   processes_[part] = std::make_unique<ChildProcess>(command, output);
+}
+
+void HardwareChain::start_all() {
+  for (const Part part : {kSimulator, kCreateDriver, kKinectPub}) start(part);
 }
 
 void HardwareChain::kill(Part part) {
@@ -83,13 +88,7 @@ std::string HardwareChain::output() const {
 }
 
 void HardwareChain::command(LcmBus& bus) {
-  velocity_command_t command{};
-  command.utime = utime_of(bus.now());
-  command.expiry_utime = command.utime + 200'000;
-  command.session = 1;
-  command.sequence = ++sequence_;
-  command.allowed_speed_mps = 0.1;
-  command.allowed_turn_rate_radps = 0.5;
+  auto command = drive_command(utime_of(bus.now()), 1, ++sequence_, 0.1, 0.5);
   bus.publish(channels::kVelCmd, command);
 }
 

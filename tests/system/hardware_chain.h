@@ -24,6 +24,7 @@ class HardwareChain {
   explicit HardwareChain(std::string scenario, std::vector<std::string> kinect_options = {});
 
   void start(Part part);
+  void start_all();
   void kill(Part part);
 
   /// Listens, asking create_driver for a slow circle all the while, until `enough` says so, for

@@ -72,9 +72,7 @@ class HardwareChainTest : public ::testing::Test {
 
 TEST_F(HardwareChainTest, DepthAndColourArriveExactlyAsRendered) {
   HardwareChain chain("living_room", {"--color_encoding", "rgb8", "--register_depth", "true"});
-  for (const Part part : {Part::kSimulator, Part::kCreateDriver, Part::kKinectPub}) {
-    chain.start(part);
-  }
+  chain.start_all();
   ASSERT_TRUE(chain.listen_until([&] { return is_complete(chain); })) << chain.output();
   RenderedFrames rendered(chain.door());
   chain.forget();
@@ -103,7 +101,7 @@ TEST_F(HardwareChainTest, DepthAndColourArriveExactlyAsRendered) {
 TEST_F(HardwareChainTest, KilledInAnyOrderEverythingComesBackByItself) {
   HardwareChain chain("empty", {"--resolution", "320x240"});
   std::vector<Part> order = {Part::kSimulator, Part::kCreateDriver, Part::kKinectPub};
-  for (const Part part : order) chain.start(part);
+  chain.start_all();
   do {
     SCOPED_TRACE(std::to_string(order[0]) + std::to_string(order[1]) + std::to_string(order[2]));
     chain.forget();
@@ -124,9 +122,7 @@ TEST_F(HardwareChainTest, KilledInAnyOrderEverythingComesBackByItself) {
 // One dies and is started again while the others live on.
 TEST_F(HardwareChainTest, EachOneKilledIsTakenUpAgainByTheOthers) {
   HardwareChain chain("empty", {"--resolution", "320x240"});
-  for (const Part part : {Part::kSimulator, Part::kCreateDriver, Part::kKinectPub}) {
-    chain.start(part);
-  }
+  chain.start_all();
   for (const Part part : {Part::kCreateDriver, Part::kKinectPub, Part::kSimulator}) {
     chain.forget();
     ASSERT_TRUE(chain.listen_until([&] { return is_complete(chain); })) << chain.output();

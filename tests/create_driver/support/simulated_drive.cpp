@@ -6,6 +6,7 @@
 
 #include "common/bus/lcm_bus.h"
 #include "tests/support/child_process.h"
+#include "tests/support/drive_command.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/system/live_service.h"
 
@@ -45,13 +46,8 @@ class Listener {
   }
 
   void command() {
-    velocity_command_t command{};
-    command.utime = utime_of(bus_.now());
-    command.expiry_utime = command.utime + 200'000;
-    command.session = 1;
-    command.sequence = ++sequence_;
-    command.allowed_speed_mps = setup_.speed_mps;
-    command.allowed_turn_rate_radps = setup_.turn_rate_radps;
+    auto command = drive_command(utime_of(bus_.now()), 1, ++sequence_, setup_.speed_mps,
+                                 setup_.turn_rate_radps);
     bus_.publish(channels::kVelCmd, command);
     if (command.utime > end_ && (drive_.ends_driving() || patience_is_over(command.utime))) {
       bus_.stop();
