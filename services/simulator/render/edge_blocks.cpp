@@ -11,6 +11,7 @@ namespace {
 constexpr double kNearest_m = 1e-3;
 /// Rays are of single precision, and so are the corners Embree has.
 constexpr double kMargin_px = 0.5;
+constexpr int kFinest_px = EdgeBlocks::side_px(EdgeBlocks::kFinest);
 
 /// Corners by place: faces that share a place share its number.
 class CornerNumbers {
@@ -69,17 +70,36 @@ void EdgeBlocks::move(std::size_t part, const Eigen::Isometry3d& T_world_part) {
   }
 }
 
-void EdgeBlocks::mark(const RayFrame& rays, int width_px, int height_px) {
-  columns_ = (width_px + kSide_px - 1) / kSide_px;
-  rows_ = (height_px + kSide_px - 1) / kSide_px;
-  marks_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const bool is_whole =
-          (column + 1) * kSide_px <= width_px && (row + 1) * kSide_px <= height_px;
-      if (!is_whole) marks_[static_cast<std::size_t>(row * columns_ + column)] = 1;
+void EdgeBlocks::clear(int width_px, int height_px) {
+  for (int i = 0; i < kLevels; ++i) {
+    const int side = side_px(i);
+    Level& level = at(i);
+    level.columns = (width_px + side - 1) / side;
+    level.rows = (height_px + side - 1) / side;
+    level.marks.assign(static_cast<std::size_t>(level.columns * level.rows), 0);
+    // What reaches beyond the image is never taken as a whole.
+    for (int row = 0; width_px % side != 0 && row < level.rows; ++row)
+      mark_block(level, level.columns - 1, row);
+    for (int column = 0; height_px % side != 0 && column < level.columns; ++column)
+      mark_block(level, column, level.rows - 1);
+  }
+}
+
+/// Every block has the edges of its parts.
+void EdgeBlocks::pass_up() {
+  for (int i = kFinest; i > 0; --i) {
+    const Level& parts = at(i);
+    Level& whole = at(i - 1);
+    for (int row = 0; row < parts.rows; ++row) {
+      for (int column = 0; column < parts.columns; ++column) {
+        if (has_edge(i, column, row)) mark_block(whole, column / 2, row / 2);
+      }
     }
   }
+}
+
+void EdgeBlocks::mark(const RayFrame& rays, int width_px, int height_px) {
+  clear(width_px, height_px);
   Eigen::Matrix3d ways;
   ways << rays.step_u, rays.step_v, rays.corner;
   const Eigen::Matrix3d to_image = ways.inverse();
@@ -87,6 +107,7 @@ void EdgeBlocks::mark(const RayFrame& rays, int width_px, int height_px) {
     seen_[i] = to_image * (corners_m_[i] - rays.origin_m);
   }
   for (const Edge& edge : edges_) mark_edge(seen_[edge[0]], seen_[edge[1]]);
+  pass_up();
 }
 
 void EdgeBlocks::mark_edge(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -100,31 +121,33 @@ void EdgeBlocks::mark_edge(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 void EdgeBlocks::mark_segment(Eigen::Vector2d a_px, Eigen::Vector2d b_px) {
   if (b_px.y() < a_px.y()) std::swap(a_px, b_px);
-  const double last_px = rows_ * kSide_px + kMargin_px;
+  const double last_px = at(kFinest).rows * kFinest_px + kMargin_px;
   const double low_px = std::max(a_px.y(), -1.0), high_px = std::min(b_px.y(), last_px);
   if (low_px > high_px) return;
-  const int first = std::max(0, static_cast<int>((low_px - kMargin_px) / kSide_px));
-  const int last = std::min(rows_ - 1, static_cast<int>((high_px + kMargin_px) / kSide_px));
+  const int first = std::max(0, static_cast<int>((low_px - kMargin_px) / kFinest_px));
+  const int last =
+      std::min(at(kFinest).rows - 1, static_cast<int>((high_px + kMargin_px) / kFinest_px));
   const double rise_px = b_px.y() - a_px.y();
   const double slope = rise_px > 1e-9 ? (b_px.x() - a_px.x()) / rise_px : 0.0;
   for (int row = first; row <= last; ++row) {
-    // Where the segment is while it crosses the row of blocks; all of it if it lies level.
-    const double top_px = std::max(a_px.y(), row * kSide_px - kMargin_px - 1.0);
-    const double bottom_px = std::min(b_px.y(), (row + 1) * kSide_px + kMargin_px);
+    // Where the segment is while it crosses the row of tiles; all of it if it lies level.
+    const double top_px = std::max(a_px.y(), row * kFinest_px - kMargin_px - 1.0);
+    const double bottom_px = std::min(b_px.y(), (row + 1) * kFinest_px + kMargin_px);
     const bool is_level = rise_px <= 1e-9;
-    mark_blocks(is_level ? a_px.x() : a_px.x() + slope * (top_px - a_px.y()),
-                is_level ? b_px.x() : a_px.x() + slope * (bottom_px - a_px.y()), row);
+    mark_tiles(is_level ? a_px.x() : a_px.x() + slope * (top_px - a_px.y()),
+               is_level ? b_px.x() : a_px.x() + slope * (bottom_px - a_px.y()), row);
   }
 }
 
-void EdgeBlocks::mark_blocks(double u_px, double other_u_px, int row) {
-  const double width_px = columns_ * kSide_px;
+void EdgeBlocks::mark_tiles(double u_px, double other_u_px, int row) {
+  Level& tiles = at(kFinest);
+  const double width_px = tiles.columns * kFinest_px;
   const double low_px = std::min(u_px, other_u_px) - kMargin_px - 1.0;
   const double high_px = std::max(u_px, other_u_px) + kMargin_px;
   if (high_px < 0.0 || low_px > width_px) return;
-  const int first = static_cast<int>(std::max(low_px, 0.0)) / kSide_px;
-  const int last = static_cast<int>(std::min(high_px, width_px - 1.0)) / kSide_px;
-  const auto begin = marks_.begin() + static_cast<std::ptrdiff_t>(row) * columns_;
+  const int first = static_cast<int>(std::max(low_px, 0.0)) / kFinest_px;
+  const int last = static_cast<int>(std::min(high_px, width_px - 1.0)) / kFinest_px;
+  const auto begin = tiles.marks.begin() + static_cast<std::ptrdiff_t>(row) * tiles.columns;
   std::fill(begin + first, begin + last + 1, std::uint8_t{1});
 }
 

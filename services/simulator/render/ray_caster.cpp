@@ -33,42 +33,29 @@ void reset_hits(RTCRayHit16& packet) {
   std::fill_n(packet.hit.instID[0], kLanes, RTC_INVALID_GEOMETRY_ID);
 }
 
-/// Rays go out in square blocks, as packets of 4 x 4 pixels that Embree takes on together: they
-/// meet the same few triangles.
-constexpr int kTile_px = 4;
-constexpr int kBlock_px = EdgeBlocks::kSide_px;
-constexpr int kPackets = kBlock_px * kBlock_px / kLanes;
+/// Where every pixel has to be looked at, rays go out as packets of one tile: they meet the same
+/// few triangles.
+constexpr int kTile_px = EdgeBlocks::side_px(EdgeBlocks::kFinest);
+static_assert(kTile_px * kTile_px == kLanes);
 
-/// Where ray i of a block is in it.
-constexpr int block_column(int i) { return i / kLanes % 2 * kTile_px + i % kTile_px; }
-constexpr int block_row(int i) { return i / kLanes / 2 * kTile_px + i % kLanes / kTile_px; }
+/// Directions of a tile's rays relative to that of its first pixel.
+struct TileSteps {
+  alignas(64) float x[kLanes], y[kLanes], z[kLanes];
 
-struct RayBlock {
-  RTCRayHit16 packets[kPackets];
-};
-
-/// Directions of a block's rays relative to that of its first pixel.
-struct RayBlockSteps {
-  alignas(64) float x[kPackets][kLanes], y[kPackets][kLanes], z[kPackets][kLanes];
-
-  explicit RayBlockSteps(const RayFrame& rays) {
-    for (int i = 0; i < kPackets * kLanes; ++i) {
+  explicit TileSteps(const RayFrame& rays) {
+    for (int i = 0; i < kLanes; ++i) {
       const Eigen::Vector3f step =
-          (block_column(i) * rays.step_u + block_row(i) * rays.step_v).cast<float>();
-      const int packet = i / kLanes, lane = i % kLanes;
-      x[packet][lane] = step.x(), y[packet][lane] = step.y(), z[packet][lane] = step.z();
+          (i % kTile_px * rays.step_u + i / kTile_px * rays.step_v).cast<float>();
+      x[i] = step.x(), y[i] = step.y(), z[i] = step.z();
     }
   }
 };
 
-void set_directions(const Eigen::Vector3f& first, const RayBlockSteps& steps, RayBlock& block) {
-  for (int k = 0; k < kPackets; ++k) {
-    RTCRayHit16& packet = block.packets[k];
-    for (int i = 0; i < kLanes; ++i) packet.ray.dir_x[i] = first.x() + steps.x[k][i];
-    for (int i = 0; i < kLanes; ++i) packet.ray.dir_y[i] = first.y() + steps.y[k][i];
-    for (int i = 0; i < kLanes; ++i) packet.ray.dir_z[i] = first.z() + steps.z[k][i];
-    reset_hits(packet);
-  }
+void set_directions(const Eigen::Vector3f& first, const TileSteps& steps, RTCRayHit16& packet) {
+  for (int i = 0; i < kLanes; ++i) packet.ray.dir_x[i] = first.x() + steps.x[i];
+  for (int i = 0; i < kLanes; ++i) packet.ray.dir_y[i] = first.y() + steps.y[i];
+  for (int i = 0; i < kLanes; ++i) packet.ray.dir_z[i] = first.z() + steps.z[i];
+  reset_hits(packet);
 }
 
 void set_direction(const Eigen::Vector3d& way, int lane, RTCRayHit16& packet) {
@@ -182,29 +169,40 @@ void RayCaster::store(const RTCHit16& hit, int u0, int v0, int width_px, int hei
 
 void RayCaster::cast(const RayFrame& rays, int width_px, int height_px, std::uint32_t* triangles) {
   blocks_.mark(rays, width_px, height_px);
-  for (int row = 0; row < blocks_.rows(); ++row) cast_corners(rays, row, width_px, triangles);
-  cast_blocks(rays, width_px, height_px, triangles);
+  for (int level = 0; level < EdgeBlocks::kLevels; ++level) {
+    for (int row = 0; row < blocks_.rows(level); ++row) {
+      cast_corners(rays, level, row, width_px, triangles);
+    }
+  }
+  cast_tiles(rays, width_px, height_px, triangles);
 }
 
-void RayCaster::cast_corners(const RayFrame& rays, int row, int width_px,
+/// Whether the corners of a block may tell all of it, and those of a larger one have not.
+bool RayCaster::is_asked(int level, int column, int row) const {
+  return !blocks_.has_edge(level, column, row) &&
+         (level == 0 || blocks_.has_edge(level - 1, column / 2, row / 2));
+}
+
+void RayCaster::cast_corners(const RayFrame& rays, int level, int row, int width_px,
                              std::uint32_t* triangles) {
-  constexpr int kCorners = 4, kReach_px = EdgeBlocks::kSide_px - 1;
+  constexpr int kCorners = 4;
+  const int side_px = EdgeBlocks::side_px(level);
   RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
   RTCRayHit16 packet = empty_packet(rays.origin_m);
   alignas(64) int valid[kLanes];
   int column = 0;
-  while (column < blocks_.columns()) {
+  while (column < blocks_.columns(level)) {
     int columns[kLanes / kCorners];
     int count = 0;
-    for (; column < blocks_.columns() && count < kLanes / kCorners; ++column) {
-      if (!blocks_.has_edge(column, row)) columns[count++] = column;
+    for (; column < blocks_.columns(level) && count < kLanes / kCorners; ++column) {
+      if (is_asked(level, column, row)) columns[count++] = column;
     }
     if (count == 0) return;
     for (int i = 0; i < kLanes; ++i) {
       const int block = std::min(i / kCorners, count - 1);
       valid[i] = i / kCorners < count ? -1 : 0;
-      const int u = columns[block] * EdgeBlocks::kSide_px + (i & 1) * kReach_px;
-      const int v = row * EdgeBlocks::kSide_px + (i >> 1 & 1) * kReach_px;
+      const int u = columns[block] * side_px + (i & 1) * (side_px - 1);
+      const int v = row * side_px + (i >> 1 & 1) * (side_px - 1);
       set_direction(rays.direction(u, v), i, packet);
     }
     reset_hits(packet);
@@ -212,42 +210,40 @@ void RayCaster::cast_corners(const RayFrame& rays, int row, int width_px,
     std::uint32_t numbers[kLanes];
     number(packet.hit, numbers);
     for (int i = 0; i < count; ++i) {
-      fill_block(numbers + i * kCorners, columns[i], row, width_px, triangles);
+      fill_block(numbers + i * kCorners, level, columns[i], row, width_px, triangles);
     }
   }
 }
 
-void RayCaster::fill_block(const std::uint32_t* corners, int column, int row, int width_px,
-                           std::uint32_t* triangles) {
+void RayCaster::fill_block(const std::uint32_t* corners, int level, int column, int row,
+                           int width_px, std::uint32_t* triangles) {
   const auto piece = [this](std::uint32_t triangle) {
     return triangle == kNoTriangle ? kNoTriangle : table_.flat_piece(triangle);
   };
   const std::uint32_t first = piece(corners[0]);
   for (int i = 1; i < 4; ++i) {
-    if (piece(corners[i]) != first) return blocks_.add_edge(column, row);
+    if (piece(corners[i]) != first) return blocks_.add_edge(level, column, row);
   }
-  constexpr int kSide_px = EdgeBlocks::kSide_px;
-  std::uint32_t* to = triangles + row * kSide_px * width_px + column * kSide_px;
-  for (int v = 0; v < kSide_px; ++v) std::fill_n(to + v * width_px, kSide_px, corners[0]);
+  const int side_px = EdgeBlocks::side_px(level);
+  std::uint32_t* to = triangles + row * side_px * width_px + column * side_px;
+  for (int v = 0; v < side_px; ++v) std::fill_n(to + v * width_px, side_px, corners[0]);
 }
 
-void RayCaster::cast_blocks(const RayFrame& rays, int width_px, int height_px,
-                            std::uint32_t* triangles) const {
+void RayCaster::cast_tiles(const RayFrame& rays, int width_px, int height_px,
+                           std::uint32_t* triangles) const {
+  alignas(64) static constexpr int kAll[kLanes] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                                   -1, -1, -1, -1, -1, -1, -1, -1};
+  constexpr int kLevel = EdgeBlocks::kFinest;
   RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-  const RayBlockSteps steps(rays);
-  RayBlock block;
-  for (RTCRayHit16& packet : block.packets) packet = empty_packet(rays.origin_m);
-  for (int row = 0; row < blocks_.rows(); ++row) {
-    for (int column = 0; column < blocks_.columns(); ++column) {
-      if (!blocks_.has_edge(column, row)) continue;
-      const int u = column * kBlock_px, v = row * kBlock_px;
-      set_directions(rays.direction(u, v).cast<float>(), steps, block);
-      rtcIntersectNM(root(), &context, reinterpret_cast<RTCRayHitN*>(block.packets), kLanes,
-                     kPackets, sizeof(RTCRayHit16));
-      for (int k = 0; k < kPackets; ++k) {
-        store(block.packets[k].hit, u + block_column(k * kLanes), v + block_row(k * kLanes),
-              width_px, height_px, triangles);
-      }
+  const TileSteps steps(rays);
+  RTCRayHit16 packet = empty_packet(rays.origin_m);
+  for (int row = 0; row < blocks_.rows(kLevel); ++row) {
+    for (int column = 0; column < blocks_.columns(kLevel); ++column) {
+      if (!blocks_.has_edge(kLevel, column, row)) continue;
+      const int u = column * kTile_px, v = row * kTile_px;
+      set_directions(rays.direction(u, v).cast<float>(), steps, packet);
+      rtcIntersect16(kAll, root(), &context, &packet);
+      store(packet.hit, u, v, width_px, height_px, triangles);
     }
   }
 }

@@ -54,11 +54,13 @@ class RayCaster {
   void make_instances();
   RTCScene root() const { return whole_ ? whole_.get() : parts_.front().get(); }
   void number(const RTCHit16& hit, std::uint32_t* triangles) const;
-  void cast_corners(const RayFrame& rays, int row, int width_px, std::uint32_t* triangles);
-  void cast_blocks(const RayFrame& rays, int width_px, int height_px,
-                   std::uint32_t* triangles) const;
-  void fill_block(const std::uint32_t* corners, int column, int row, int width_px,
+  bool is_asked(int level, int column, int row) const;
+  void cast_corners(const RayFrame& rays, int level, int row, int width_px,
+                    std::uint32_t* triangles);
+  void fill_block(const std::uint32_t* corners, int level, int column, int row, int width_px,
                   std::uint32_t* triangles);
+  void cast_tiles(const RayFrame& rays, int width_px, int height_px,
+                  std::uint32_t* triangles) const;
   void store(const RTCHit16& hit, int u0, int v0, int width_px, int height_px,
              std::uint32_t* triangles) const;
 

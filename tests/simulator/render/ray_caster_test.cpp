@@ -12,7 +12,8 @@ namespace {
 constexpr int kImageWidth_px = 320;
 constexpr int kImageHeight_px = 240;
 
-/// Things through one another, thin ones, round ones, and one that walks.
+/// Things through one another, thin ones, round ones, and one that walks. No two faces lie in one
+/// plane: from inside the walker none could say which of floor and sole is in front.
 PlainScene cluttered() {
   PlainScene plain;
   plain.put_floor().put_wall(5.0);
@@ -22,7 +23,7 @@ PlainScene cluttered() {
   plain.put(moved(cylinder(0.01, 0.0, 1.5, 5), {1.2, -0.3, 0.0}));
   plain.put(moved(box({-1.0, -1.0, 0.0}, {1.0, 1.0, 0.01}), {3.0, 0.5, 0.7}, 0.35));
   plain.scene().walkers.push_back({.name = "man",
-                                   .meshes = {cylinder(0.25, 0.0, 1.8).mesh},
+                                   .meshes = {cylinder(0.25, -0.1, 1.8).mesh},
                                    .way_m = {{1.0, 0.5}, {4.0, -0.5}},
                                    .speed_mps = 1.0});
   return plain;
@@ -84,15 +85,32 @@ TEST(EdgeBlocks, AreFewerThanAllWhereThereIsLittleToSee) {
   const SurfaceTable table(plain.scene());
   EdgeBlocks blocks(plain.scene(), table);
   blocks.mark(ray_frame(kinect_camera(525.0, 640, 480), camera_pose(1.0)), 640, 480);
+  constexpr int kOf8_px = 2;
   int marked = 0;
-  for (int row = 0; row < blocks.rows(); ++row) {
-    for (int column = 0; column < blocks.columns(); ++column)
-      marked += blocks.has_edge(column, row);
+  for (int row = 0; row < blocks.rows(kOf8_px); ++row) {
+    for (int column = 0; column < blocks.columns(kOf8_px); ++column)
+      marked += blocks.has_edge(kOf8_px, column, row);
   }
   EXPECT_GT(marked, 200);
   EXPECT_LT(marked, 600);  // of 4800
-  EXPECT_TRUE(blocks.has_edge(40 - 7, 30));
-  EXPECT_FALSE(blocks.has_edge(40, 30));
+  EXPECT_TRUE(blocks.has_edge(kOf8_px, 40 - 7, 30));
+  EXPECT_FALSE(blocks.has_edge(kOf8_px, 40, 30));
+}
+
+TEST(EdgeBlocks, HaveTheEdgesOfTheirParts) {
+  PlainScene plain;
+  plain.put_wall(3.0).put(box({1.0, -0.1, 0.5}, {1.1, 0.1, 1.5}));
+  const SurfaceTable table(plain.scene());
+  EdgeBlocks blocks(plain.scene(), table);
+  blocks.mark(ray_frame(kinect_camera(525.0, 640, 480), camera_pose(1.0)), 640, 480);
+  for (int level = 1; level < EdgeBlocks::kLevels; ++level) {
+    for (int row = 0; row < blocks.rows(level); ++row) {
+      for (int column = 0; column < blocks.columns(level); ++column) {
+        if (!blocks.has_edge(level, column, row)) continue;
+        EXPECT_TRUE(blocks.has_edge(level - 1, column / 2, row / 2));
+      }
+    }
+  }
 }
 
 TEST(EdgeBlocks, ABlockThatReachesBeyondTheImageIsNeverTakenAsAWhole) {
@@ -101,9 +119,11 @@ TEST(EdgeBlocks, ABlockThatReachesBeyondTheImageIsNeverTakenAsAWhole) {
   const SurfaceTable table(plain.scene());
   EdgeBlocks blocks(plain.scene(), table);
   blocks.mark(ray_frame(kinect_camera(525.0, 20, 12), camera_pose(1.0)), 20, 12);
-  EXPECT_FALSE(blocks.has_edge(0, 0));
-  EXPECT_TRUE(blocks.has_edge(2, 0));
-  EXPECT_TRUE(blocks.has_edge(0, 1));
+  EXPECT_TRUE(blocks.has_edge(0, 0, 0));  // 32 px
+  EXPECT_FALSE(blocks.has_edge(2, 0, 0));
+  EXPECT_TRUE(blocks.has_edge(2, 2, 0));
+  EXPECT_TRUE(blocks.has_edge(2, 0, 1));
+  EXPECT_FALSE(blocks.has_edge(EdgeBlocks::kFinest, 4, 2));  // 20 and 12 are whole tiles
 }
 
 }  // namespace
