@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -58,9 +59,11 @@ std::function<void()> list_assignment(const toml::node& node, std::vector<std::s
 std::function<void()> assignment(const toml::node& node, const ParamField& field) {
   return std::visit(Overloaded{[&](const ParamField::Range<double>& r) -> std::function<void()> {
                                  if (!node.is_number()) return {};
-                                 const double value = *node.value<double>();
-                                 if (!(value >= r.smallest && value <= r.largest)) return {};
-                                 return [r, value] { *r.value = value; };
+                                 // None for whole numbers that no double equals.
+                                 const std::optional<double> value = node.value<double>();
+                                 if (!value || !(*value >= r.smallest && *value <= r.largest))
+                                   return {};
+                                 return [r, value] { *r.value = *value; };
                                },
                                [&](const ParamField::Range<int>& r) -> std::function<void()> {
                                  if (!node.is_integer()) return {};

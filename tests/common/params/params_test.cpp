@@ -57,6 +57,9 @@ TEST(Params, RefusesByFileLineAndName) {
             "p.toml:2: range_noise_m must be a number in [0.001, 1]");
   EXPECT_EQ(refusal("range_noise_m = nan"),
             "p.toml:1: range_noise_m must be a number in [0.001, 1]");
+  // A whole number that no double equals.
+  EXPECT_EQ(refusal("range_noise_m = 9007199254740993"),
+            "p.toml:1: range_noise_m must be a number in [0.001, 1]");
   EXPECT_EQ(refusal("range_noise_m = 'x'"),
             "p.toml:1: range_noise_m must be a number in [0.001, 1]");
   EXPECT_EQ(refusal("rows_min = 2.5"), "p.toml:1: rows_min must be a whole number in [1, 480]");
