@@ -21,8 +21,14 @@ Eigen::Isometry3d upright(const Pose2& pose) {
 
 /// End of the stretch of pixels from `begin` on that show one flat piece, at most `end`.
 int run_end(const SurfaceTable& surfaces, const std::uint32_t* triangles, int begin, int end) {
+  constexpr int kAtOnce = 8;
   const std::uint32_t first = triangles[begin];
   int u = begin + 1;
+  for (; u + kAtOnce <= end; u += kAtOnce) {
+    std::uint32_t differs = 0;
+    for (int i = 0; i < kAtOnce; ++i) differs |= triangles[u + i] ^ first;
+    if (differs != 0) break;
+  }
   while (u < end && triangles[u] == first) ++u;
   if (u == end || first == kNoTriangle || triangles[u] == kNoTriangle) return u;
   const bool continues = surfaces.flat_piece(triangles[u]) == surfaces.flat_piece(first);

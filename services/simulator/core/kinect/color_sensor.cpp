@@ -94,12 +94,15 @@ ColorSensor::ColorSensor(const ColorSensorParams& params, std::uint32_t seed)
     : params_(params), seed_(seed) {}
 
 double ColorSensor::wanted_gain(const KinectView& view) const {
-  constexpr std::size_t kEvery_px = 61;  // shares no factor with widths: all columns take part
+  constexpr int kEveryRow = 16, kEveryColumn = 4;
   double sum = 0.0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < view.size(); i += kEvery_px, ++count) {
-    // Windows and lamps are white for the gain too, however bright they are.
-    sum += std::min(1.0, 0.3 * view.red[i] + 0.6 * view.green[i] + 0.1 * view.blue[i]);
+  for (int v = 0; v < view.height_px; v += kEveryRow) {
+    for (int u = 0; u < view.width_px; u += kEveryColumn, ++count) {
+      const auto i = static_cast<std::size_t>(v * view.width_px + u);
+      // Windows and lamps are white for the gain too, however bright they are.
+      sum += std::min(1.0, 0.3 * view.red[i] + 0.6 * view.green[i] + 0.1 * view.blue[i]);
+    }
   }
   const double mean = sum / static_cast<double>(std::max<std::size_t>(count, 1));
   return std::clamp(params_.color_wanted_ratio / std::max(mean, 1e-9), 0.05,

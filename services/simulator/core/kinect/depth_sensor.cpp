@@ -64,7 +64,7 @@ void DepthSensor::resize(const KinectView& view) {
   ragged_.resize(width_px_, height_px_, std::min(scaled(params_.ragged_px), 4));
   noise_.emplace(width_px_, window(kWindowWidth_px), window(kWindowHeight_px));
   for (auto* image : {&disparity_, &pattern_}) image->assign(view.size(), 0.0F);
-  quanta_.assign(view.size(), 0);
+  quanta_.assign(static_cast<std::size_t>(width_px_), 0);
   row_.assign(static_cast<std::size_t>(width_px_), 0.0F);
   fill_pattern();
 }
@@ -80,16 +80,18 @@ void DepthSensor::fill_pattern() {
 
 void DepthSensor::cast_shadow(const KinectView& view, double projector_px_m) {
   const auto quanta_m = static_cast<float>(params_.quanta_m());
-  std::transform(view.inverse_depth_per_m.begin(), view.inverse_depth_per_m.end(),
-                 disparity_.begin(), [quanta_m](float inverse) { return quanta_m * inverse; });
   const double px_per_quantum = projector_px_m / params_.quanta_m();
   const auto width = static_cast<std::size_t>(width_px_);
   for (std::size_t begin = 0; begin < disparity_.size(); begin += width) {
-    shadow_.apply(std::span(disparity_).subspan(begin, width), static_cast<float>(px_per_quantum));
+    const auto inverse = std::span(view.inverse_depth_per_m).subspan(begin, width);
+    const auto row = std::span(disparity_).subspan(begin, width);
+    std::transform(inverse.begin(), inverse.end(), row.begin(),
+                   [quanta_m](float inverse_per_m) { return quanta_m * inverse_per_m; });
+    shadow_.apply(row, static_cast<float>(px_per_quantum));
   }
 }
 
-void DepthSensor::drop_patches(std::uint32_t key) {
+void DepthSensor::drop_patches(std::uint32_t key, DepthImage& out) const {
   const auto limit = static_cast<std::uint32_t>(
       std::min(4294967295.0, params_.depth_dropout_ratio * 4294967296.0));
   for (int v = 0; v < height_px_; v += kDropout_px) {
@@ -97,14 +99,15 @@ void DepthSensor::drop_patches(std::uint32_t key) {
       if (hash32(key++) >= limit) continue;
       const int columns = std::min(kDropout_px, width_px_ - u);
       for (int row = v; row < std::min(v + kDropout_px, height_px_); ++row) {
-        std::fill_n(quanta_.begin() + static_cast<std::ptrdiff_t>(row) * width_px_ + u, columns,
+        std::fill_n(out.steps.begin() + static_cast<std::ptrdiff_t>(row) * width_px_ + u, columns,
                     std::uint16_t{0});
       }
     }
   }
 }
 
-void DepthSensor::expose_row(const KinectView& view, int v, std::uint32_t key) {
+void DepthSensor::expose_row(const KinectView& view, int v, std::uint32_t key,
+                             std::uint16_t* depth_mm) {
   const double quanta_m = params_.quanta_m();
   const RowLimits limits{
       .quanta_least = static_cast<float>(std::max(1.0, quanta_m / params_.depth_far_m)),
@@ -115,9 +118,11 @@ void DepthSensor::expose_row(const KinectView& view, int v, std::uint32_t key) {
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(v) * width_px_;
   ragged_.copy_row(disparity_, v, kEdgeQuanta, key, row_.data());
   measure_row(row_.data(), view.infrared_ratio.data() + begin, noise_->next_row(),
-              pattern_.data() + begin, limits, width_px_, quanta_.data() + begin);
+              pattern_.data() + begin, limits, width_px_, quanta_.data());
   const int blind_px = kBlindRight_px * width_px_ / kMatchingWidth_px;
-  std::fill_n(quanta_.begin() + begin + width_px_ - blind_px, blind_px, std::uint16_t{0});
+  std::fill_n(quanta_.end() - blind_px, blind_px, std::uint16_t{0});
+  std::transform(quanta_.begin(), quanta_.end(), depth_mm,
+                 [this](std::uint16_t quanta) { return depth_mm_[quanta]; });
 }
 
 void DepthSensor::expose(const KinectView& view, double projector_px_m, std::int64_t frame,
@@ -126,14 +131,14 @@ void DepthSensor::expose(const KinectView& view, double projector_px_m, std::int
   cast_shadow(view, projector_px_m);
   const std::uint32_t ragged_key = stream_key(seed_, frame, kRagged);
   noise_->start(stream_key(seed_, frame, kNoise));
-  for (int v = 0; v < height_px_; ++v) expose_row(view, v, ragged_key);
-  drop_patches(stream_key(seed_, frame, kDropout));
   out.width_px = width_px_;
   out.height_px = height_px_;
   out.unit_m = 0.001;
-  out.steps.resize(quanta_.size());
-  std::transform(quanta_.begin(), quanta_.end(), out.steps.begin(),
-                 [this](std::uint16_t quanta) { return depth_mm_[quanta]; });
+  out.steps.resize(view.size());
+  for (int v = 0; v < height_px_; ++v) {
+    expose_row(view, v, ragged_key, out.steps.data() + static_cast<std::ptrdiff_t>(v) * width_px_);
+  }
+  drop_patches(stream_key(seed_, frame, kDropout), out);
 }
 
 }  // namespace roomwise::simulator

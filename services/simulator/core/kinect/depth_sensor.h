@@ -43,8 +43,8 @@ class DepthSensor {
   void resize(const KinectView& view);
   void fill_pattern();
   void cast_shadow(const KinectView& view, double projector_px_m);
-  void expose_row(const KinectView& view, int v, std::uint32_t key);
-  void drop_patches(std::uint32_t key);
+  void expose_row(const KinectView& view, int v, std::uint32_t key, std::uint16_t* depth_mm);
+  void drop_patches(std::uint32_t key, DepthImage& out) const;
 
   DepthSensorParams params_;
   std::uint32_t seed_ = 0;
@@ -53,10 +53,10 @@ class DepthSensor {
   ProjectorShadow shadow_;
   RaggedEdges ragged_;
   std::optional<CorrelatedNoise> noise_;
-  std::vector<float> pattern_;    ///< error that stays, quanta, height x width
-  std::vector<float> disparity_;  ///< quanta, of the view, then lit parts only
-  std::vector<float> row_;
-  std::vector<std::uint16_t> quanta_;
+  std::vector<float> pattern_;           ///< error that stays, quanta, height x width
+  std::vector<float> disparity_;         ///< quanta, of the view, then lit parts only
+  std::vector<float> row_;               ///< of disparity_, with ragged edges
+  std::vector<std::uint16_t> quanta_;    ///< of a row, as measured
   std::vector<std::uint16_t> depth_mm_;  ///< by quanta
 };
 
