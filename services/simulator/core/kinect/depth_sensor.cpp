@@ -64,7 +64,7 @@ void DepthSensor::resize(const KinectView& view) {
   ragged_.resize(width_px_, height_px_, std::min(scaled(params_.ragged_px), 4));
   noise_.emplace(width_px_, window(kWindowWidth_px), window(kWindowHeight_px));
   for (auto* image : {&disparity_, &pattern_}) image->assign(view.size(), 0.0F);
-  quanta_.assign(static_cast<std::size_t>(width_px_), 0);
+  quanta_.assign(view.size(), 0);
   row_.assign(static_cast<std::size_t>(width_px_), 0.0F);
   fill_pattern();
 }
@@ -91,7 +91,7 @@ void DepthSensor::cast_shadow(const KinectView& view, double projector_px_m) {
   }
 }
 
-void DepthSensor::drop_patches(std::uint32_t key, DepthImage& out) const {
+void DepthSensor::drop_patches(std::uint32_t key, DepthImage& out) {
   const auto limit = static_cast<std::uint32_t>(
       std::min(4294967295.0, params_.depth_dropout_ratio * 4294967296.0));
   for (int v = 0; v < height_px_; v += kDropout_px) {
@@ -99,15 +99,15 @@ void DepthSensor::drop_patches(std::uint32_t key, DepthImage& out) const {
       if (hash32(key++) >= limit) continue;
       const int columns = std::min(kDropout_px, width_px_ - u);
       for (int row = v; row < std::min(v + kDropout_px, height_px_); ++row) {
-        std::fill_n(out.steps.begin() + static_cast<std::ptrdiff_t>(row) * width_px_ + u, columns,
-                    std::uint16_t{0});
+        const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(row) * width_px_ + u;
+        std::fill_n(quanta_.begin() + begin, columns, std::uint16_t{0});
+        std::fill_n(out.steps.begin() + begin, columns, std::uint16_t{0});
       }
     }
   }
 }
 
-void DepthSensor::expose_row(const KinectView& view, int v, std::uint32_t key,
-                             std::uint16_t* depth_mm) {
+void DepthSensor::expose_row(const KinectView& view, int v, std::uint32_t key, DepthImage& out) {
   const double quanta_m = params_.quanta_m();
   const RowLimits limits{
       .quanta_least = static_cast<float>(std::max(1.0, quanta_m / params_.depth_far_m)),
@@ -118,10 +118,11 @@ void DepthSensor::expose_row(const KinectView& view, int v, std::uint32_t key,
   const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(v) * width_px_;
   ragged_.copy_row(disparity_, v, kEdgeQuanta, key, row_.data());
   measure_row(row_.data(), view.infrared_ratio.data() + begin, noise_->next_row(),
-              pattern_.data() + begin, limits, width_px_, quanta_.data());
+              pattern_.data() + begin, limits, width_px_, quanta_.data() + begin);
   const int blind_px = kBlindRight_px * width_px_ / kMatchingWidth_px;
-  std::fill_n(quanta_.end() - blind_px, blind_px, std::uint16_t{0});
-  std::transform(quanta_.begin(), quanta_.end(), depth_mm,
+  const auto row = quanta_.begin() + begin;
+  std::fill_n(row + width_px_ - blind_px, blind_px, std::uint16_t{0});
+  std::transform(row, row + width_px_, out.steps.begin() + begin,
                  [this](std::uint16_t quanta) { return depth_mm_[quanta]; });
 }
 
@@ -135,9 +136,7 @@ void DepthSensor::expose(const KinectView& view, double projector_px_m, std::int
   out.height_px = height_px_;
   out.unit_m = 0.001;
   out.steps.resize(view.size());
-  for (int v = 0; v < height_px_; ++v) {
-    expose_row(view, v, ragged_key, out.steps.data() + static_cast<std::ptrdiff_t>(v) * width_px_);
-  }
+  for (int v = 0; v < height_px_; ++v) expose_row(view, v, ragged_key, out);
   drop_patches(stream_key(seed_, frame, kDropout), out);
 }
 

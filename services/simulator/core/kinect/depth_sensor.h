@@ -43,8 +43,8 @@ class DepthSensor {
   void resize(const KinectView& view);
   void fill_pattern();
   void cast_shadow(const KinectView& view, double projector_px_m);
-  void expose_row(const KinectView& view, int v, std::uint32_t key, std::uint16_t* depth_mm);
-  void drop_patches(std::uint32_t key, DepthImage& out) const;
+  void expose_row(const KinectView& view, int v, std::uint32_t key, DepthImage& out);
+  void drop_patches(std::uint32_t key, DepthImage& out);
 
   DepthSensorParams params_;
   std::uint32_t seed_ = 0;
@@ -56,7 +56,7 @@ class DepthSensor {
   std::vector<float> pattern_;           ///< error that stays, quanta, height x width
   std::vector<float> disparity_;         ///< quanta, of the view, then lit parts only
   std::vector<float> row_;               ///< of disparity_, with ragged edges
-  std::vector<std::uint16_t> quanta_;    ///< of a row, as measured
+  std::vector<std::uint16_t> quanta_;    ///< as measured
   std::vector<std::uint16_t> depth_mm_;  ///< by quanta
 };
 
