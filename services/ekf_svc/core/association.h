@@ -12,24 +12,14 @@ struct Candidate {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::size_t landmark = kNone;
   double mahalanobis_sq = std::numeric_limits<double>::infinity();
-  double gate_sq = 0.0;  ///< 99 % of right pairs are below
 };
 
-/// chi^2 quantile at 99 % for 2 or 4 degrees of freedom.
-double gate_99(int degrees_of_freedom);
+/// innovation^T S^-1 innovation; infinite if S is not positive definite.
+double mahalanobis_sq(const Eigen::Vector2d& innovation, const Eigen::Matrix2d& S);
 
-/// Squared Mahalanobis distance of a pair: innovation^T S^-1 innovation + the signatures'. Infinite
-/// if S is not positive definite.
-Candidate compare(const SlamFilter& filter, std::size_t landmark, const Sighting& sighting,
-                  const BodyObservation& seen);
-
-/// The landmark of the sighting's (known) identity; place and colour are compared, never searched.
+/// The landmark of the sighting's (known) identity, with the normalised innovation of the pair,
+/// colour included; place and colour are compared, never searched.
 Candidate find_identity(const SlamFilter& filter, const Sighting& sighting,
                         const BodyObservation& seen);
-
-/// The nearest landmark, by Mahalanobis distance, among those of the sighting's kind whose identity
-/// is unknown too. Landmarks certainly beyond `search_sq` may be passed over.
-Candidate find_nearest(const SlamFilter& filter, const Sighting& sighting,
-                       const BodyObservation& seen, double search_sq);
 
 }  // namespace roomwise::ekf

@@ -9,12 +9,21 @@ struct EkfParams {
   std::string filter = "invariant";
   int landmark_budget = 2000;  ///< most landmarks in the map; memory for them is taken at start
 
-  double odometry_noise_ratio = 1.0;    ///< factor on the covariance ODOMETRY carries
+  double odometry_noise_ratio = 1.0;  ///< factor on the covariance ODOMETRY carries
+  /// Learn scale errors of distance and turn, and a steady pull to one side, from landmarks.
+  bool self_calibration = true;
+  double calibration_sigma_ratio = 0.05;  ///< what to expect of either scale before the first turn
+  double calibration_sigma_radpm = 0.02;  ///< and of the pull, turn per distance
+  double calibration_drift_ratio =
+      0.001;  ///< wander of a scale over a metre of way, per root metre
+
   double gap_distance_sigma_mps = 0.1;  ///< unseen travel per second without odometry
   double gap_turn_sigma_radps = 0.2;    ///< unseen turn per second without odometry
 
   double range_bias_m = 0.015;   ///< repeats from frame to frame; added to every range noise
   double lateral_bias_m = 0.01;  ///< the same across the line of sight
+
+  int confirm_sightings = 3;  ///< a thing of unknown identity is mapped when seen so often
 
   double latency_max_s = 0.5;  ///< LANDMARKS this much older than ODOMETRY are still used in place
 
@@ -29,10 +38,15 @@ struct EkfParams {
     field("filter", filter, {"invariant", "plain"});
     field("landmark_budget", landmark_budget, 1, 8000);
     field("odometry_noise_ratio", odometry_noise_ratio, 1e-3, 1e3);
+    field("self_calibration", self_calibration);
+    field("calibration_sigma_ratio", calibration_sigma_ratio, 0.0, 0.5);
+    field("calibration_sigma_radpm", calibration_sigma_radpm, 0.0, 1.0);
+    field("calibration_drift_ratio", calibration_drift_ratio, 0.0, 0.1);
     field("gap_distance_sigma_mps", gap_distance_sigma_mps, 0.0, 10.0);
     field("gap_turn_sigma_radps", gap_turn_sigma_radps, 0.0, 10.0);
     field("range_bias_m", range_bias_m, 0.0, 1.0);
     field("lateral_bias_m", lateral_bias_m, 0.0, 1.0);
+    field("confirm_sightings", confirm_sightings, 1, 100);
     field("latency_max_s", latency_max_s, 0.0, 5.0);
     field("update_travel_m", update_travel_m, 0.0, 1.0);
     field("update_turn_rad", update_turn_rad, 0.0, 1.0);

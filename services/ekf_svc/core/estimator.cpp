@@ -127,16 +127,17 @@ FrameResult Estimator::process(Time frame, std::span<const Sighting> sightings,
 }
 
 void Estimator::move_filter(Time until) {
-  const MotionIncrement motion = timeline_.take(until);
+  const MotionIncrement motion = timeline_.take(until, filter().calibration());
   schedule_.moved(motion, until);
   slam_.predict(motion);
 }
 
 PoseEstimate Estimator::estimate() const {
-  const MotionIncrement ahead = timeline_.ahead();
+  const MotionIncrement ahead = timeline_.ahead(filter().calibration());
   const Pose2 pose = filter().pose();
-  return {timeline_.end(), moved(pose, ahead),
-          moved_covariance(pose.heading_rad, filter().pose_covariance(), ahead)};
+  return {
+      timeline_.end(), moved(pose, ahead),
+      moved_covariance(pose.heading_rad, filter().robot_covariance(), ahead).topLeftCorner<3, 3>()};
 }
 
 }  // namespace roomwise::ekf

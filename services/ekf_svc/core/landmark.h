@@ -17,7 +17,9 @@ struct Landmark {
   std::int8_t kind = 0;        ///< landmark_observation_t.KIND_*
   Signature signature = {};
   std::int32_t times_seen = 0;
-  std::int32_t refusals = 0;  ///< gate refusals in a row
+  std::int32_t refusals = 0;         ///< gate refusals in a row
+  double first_seen_travel_m = 0.0;  ///< way the robot had gone then
+  double last_seen_travel_m = 0.0;
 };
 
 }  // namespace roomwise::ekf

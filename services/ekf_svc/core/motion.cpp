@@ -37,9 +37,11 @@ MotionStep part_of(const MotionStep& step, double ratio) {
   return {ratio * step.twist, ratio * step.covariance};
 }
 
-void MotionIncrement::append(const MotionStep& step) {
-  const ArcCoefficients arc = arc_coefficients(step.twist(0));
-  const Eigen::Vector2d velocity = step.twist.tail<2>();
+void MotionIncrement::append(const MotionStep& step, const OdometryCalibration& calibration) {
+  const Eigen::Matrix3d correction = calibration.correction();
+  const Eigen::Vector3d twist = correction * step.twist;
+  const ArcCoefficients arc = arc_coefficients(twist(0));
+  const Eigen::Vector2d velocity = twist.tail<2>();
   const Eigen::Matrix2d rotation = rotation2(turn_rad);
   const Eigen::Matrix2d reach = rotation * arc_matrix(arc);
   const Eigen::Vector2d move = reach * velocity;
@@ -48,9 +50,12 @@ void MotionIncrement::append(const MotionStep& step) {
 
   const Eigen::Matrix3d A = turn_then_move(quarter_turn(move), Eigen::Matrix2d::Identity());
   const Eigen::Matrix3d B = turn_then_move(rotation * arc_per_rad * velocity, reach);
-  covariance = A * covariance * A.transpose() + B * step.covariance * B.transpose();
+  const Eigen::Matrix3d noise = B * correction;
+  covariance = A * covariance * A.transpose() + noise * step.covariance * noise.transpose();
+  per_calibration = A * per_calibration + B * OdometryCalibration::twist_jacobian(step.twist);
+  path_m += velocity.norm();
   translation_m += move;
-  turn_rad += step.twist(0);
+  turn_rad += twist(0);
 }
 
 Pose2 moved(const Pose2& T_map_robot, const MotionIncrement& motion) {
@@ -58,13 +63,23 @@ Pose2 moved(const Pose2& T_map_robot, const MotionIncrement& motion) {
                  {motion.translation_m.x(), motion.translation_m.y(), motion.turn_rad});
 }
 
-Eigen::Matrix3d moved_covariance(double heading_rad, const Eigen::Matrix3d& covariance,
-                                 const MotionIncrement& motion) {
+RobotMatrix transition(double heading_rad, const MotionIncrement& motion) {
   const Eigen::Matrix2d rotation = rotation2(heading_rad);
-  const Eigen::Matrix3d F =
-      turn_then_move(quarter_turn(rotation * motion.translation_m), Eigen::Matrix2d::Identity());
   const Eigen::Matrix3d G = turn_then_move(Eigen::Vector2d::Zero(), rotation);
-  return F * covariance * F.transpose() + G * motion.covariance * G.transpose();
+  RobotMatrix F = RobotMatrix::Identity();
+  F.topLeftCorner<3, 3>() =
+      turn_then_move(quarter_turn(rotation * motion.translation_m), Eigen::Matrix2d::Identity());
+  F.topRightCorner<3, 3>() = G * motion.per_calibration;
+  return F;
+}
+
+RobotMatrix moved_covariance(double heading_rad, const RobotMatrix& covariance,
+                             const MotionIncrement& motion) {
+  const RobotMatrix F = transition(heading_rad, motion);
+  const Eigen::Matrix3d G = turn_then_move(Eigen::Vector2d::Zero(), rotation2(heading_rad));
+  RobotMatrix after = F * covariance * F.transpose();
+  after.topLeftCorner<3, 3>() += G * motion.covariance * G.transpose();
+  return after;
 }
 
 }  // namespace roomwise::ekf

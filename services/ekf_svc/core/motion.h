@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry/pose2.h"
+#include "services/ekf_svc/core/odometry_calibration.h"
 
 namespace roomwise::ekf {
 
@@ -24,24 +25,33 @@ MotionStep chord_step(const Pose2& T_start_end, const Eigen::Matrix3d& covarianc
 MotionStep part_of(const MotionStep& step, double ratio);
 
 /// Where steps lead, taken together, in the frame of the robot before the first of them.
-///   covariance  3 x 3  of (turn, x, y), additive errors [rad^2, rad m, m^2]
+///   covariance       3 x 3  of (turn, x, y), additive errors [rad^2, rad m, m^2]
+///   per_calibration  3 x 3  d (turn, x, y) / d OdometryCalibration
 struct MotionIncrement {
   double turn_rad = 0.0;  ///< not wrapped
   Eigen::Vector2d translation_m = Eigen::Vector2d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d per_calibration = Eigen::Matrix3d::Zero();
+  double path_m = 0.0;  ///< way gone, forward or back
 
-  /// Appends a step, with d = V(turn) (forward, leftward):
+  /// Appends a step, corrected by `calibration`, with d = V(turn) (forward, leftward):
   ///   translation += R d;  turn += step's;  Q = A Q A^T + B q B^T,
   ///   A = [1 0; J R d, I],  B = [1 0; R V'(turn) v, R V(turn)],  R = R(turn so far).
-  void append(const MotionStep& step);
+  void append(const MotionStep& step, const OdometryCalibration& calibration = {});
 };
 
 /// Pose after the motion. The heading is wrapped.
 Pose2 moved(const Pose2& T_map_robot, const MotionIncrement& motion);
 
-/// Covariance of moved() from that of the pose before; both of (heading, x, y):
-///   F P F^T + G Q G^T,  F = [1 0; J R dp, I],  G = [1 0; 0 R].
-Eigen::Matrix3d moved_covariance(double heading_rad, const Eigen::Matrix3d& covariance,
-                                 const MotionIncrement& motion);
+using RobotMatrix = Eigen::Matrix<double, 6, 6>;
+
+/// Covariance after the motion from that before, both of (heading, x, y, OdometryCalibration):
+///   F P F^T + G Q G^T,  F = [1 0 D_0; J R dp, I, R D_p; 0 0 I],  G = [1 0; 0 R; 0 0],
+/// with D_0 and D_p the rows of per_calibration.
+RobotMatrix moved_covariance(double heading_rad, const RobotMatrix& covariance,
+                             const MotionIncrement& motion);
+
+/// The F of moved_covariance().
+RobotMatrix transition(double heading_rad, const MotionIncrement& motion);
 
 }  // namespace roomwise::ekf

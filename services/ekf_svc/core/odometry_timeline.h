@@ -20,10 +20,10 @@ class OdometryTimeline {
 
   /// Takes away the motion from start() to `until`, which is then the new start().
   /// start() <= until <= end(), else std::logic_error.
-  MotionIncrement take(Time until);
+  MotionIncrement take(Time until, const OdometryCalibration& calibration = {});
 
   /// All the motion from start() to end().
-  MotionIncrement ahead() const;
+  MotionIncrement ahead(const OdometryCalibration& calibration = {}) const;
 
   Time start() const { return start_; }
   Time end() const { return end_; }

@@ -26,6 +26,8 @@ enum class Verdict : std::uint8_t {
   kAmbiguous,          ///< too far from a landmark to be it, too near to be another
   kOutlier,            ///< its identity's landmark is elsewhere
   kTaken,              ///< another sighting in the frame fits that landmark better
+  kTentative,          ///< may become a landmark if it is seen again from elsewhere
+  kPassedOver,         ///< more sightings in the frame than can be told apart at once
   kMoving,             ///< on something that moves
   kBudgetFull,         ///< new, but the map is full
   kNotFinite,          ///< NaN or infinite
@@ -36,20 +38,13 @@ enum class Verdict : std::uint8_t {
 };
 
 /// For HEALTH; in the order of Verdict.
-inline constexpr std::array<std::string_view, 14> kVerdictNames{"sighting_matched",
-                                                                "sighting_added",
-                                                                "sighting_replaced",
-                                                                "sighting_held",
-                                                                "sighting_ambiguous",
-                                                                "sighting_outlier",
-                                                                "sighting_taken",
-                                                                "sighting_moving",
-                                                                "sighting_budget_full",
-                                                                "sighting_not_finite",
-                                                                "sighting_range_invalid",
-                                                                "sighting_bearing_invalid",
-                                                                "sighting_covariance_invalid",
-                                                                "sighting_singular"};
+inline constexpr std::array<std::string_view, 16> kVerdictNames{
+    "sighting_matched",       "sighting_added",           "sighting_replaced",
+    "sighting_held",          "sighting_ambiguous",       "sighting_outlier",
+    "sighting_taken",         "sighting_tentative",       "sighting_passed_over",
+    "sighting_moving",        "sighting_budget_full",     "sighting_not_finite",
+    "sighting_range_invalid", "sighting_bearing_invalid", "sighting_covariance_invalid",
+    "sighting_singular"};
 
 constexpr std::string_view name_of(Verdict verdict) {
   return kVerdictNames[static_cast<std::size_t>(verdict)];

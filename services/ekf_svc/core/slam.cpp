@@ -7,7 +7,7 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kNewLandmarkSq = 25.0;
+constexpr double kClosureEvery_m = 0.5;  // of way
 
 // A read identity is itself evidence. With one misreading in a hundred, spread over a view of 50
 // m^2, the right pair stays the likelier one up to d^2 = 2 ln(99 * 50 m^2 / (2 pi sqrt(det S))):
@@ -36,6 +36,7 @@ void tally(std::span<const Verdict> verdicts, FrameResult& result) {
         break;
       case Verdict::kHeld:
       case Verdict::kMoving:
+      case Verdict::kTentative:
         break;
       default:
         ++result.rejected;
@@ -48,11 +49,27 @@ void tally(std::span<const Verdict> verdicts, FrameResult& result) {
 Slam::Slam(const EkfParams& params)
     : params_(params),
       filter_(params.filter == "plain" ? ErrorForm::kPlain : ErrorForm::kInvariant,
-              static_cast<std::size_t>(params.landmark_budget)) {
+              static_cast<std::size_t>(params.landmark_budget)),
+      local_(filter_),
+      closure_(filter_),
+      twins_(filter_) {
+  if (params.self_calibration) {
+    filter_.free_calibration({params.calibration_sigma_ratio, params.calibration_sigma_ratio,
+                              params.calibration_sigma_radpm});
+  }
   candidates_.reserve(kSightingsExpected);
   claimed_by_.resize(filter_.landmark_budget());
   batch_.reserve(SlamFilter::kResidualsMax);
   residuals_.reserve(SlamFilter::kResidualsMax);
+  merged_.reserve(2 * SlamFilter::kResidualsMax);
+}
+
+void Slam::predict(const MotionIncrement& motion) {
+  filter_.predict(motion);
+  travel_m_ += motion.path_m;
+  if (!params_.self_calibration) return;
+  const double drift = params_.calibration_drift_ratio * params_.calibration_drift_ratio;
+  filter_.drift_calibration(motion.path_m * drift * Eigen::Vector3d(1.0, 1.0, 0.01));
 }
 
 FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
@@ -66,7 +83,10 @@ FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
   } else {
     std::replace(verdicts.begin(), verdicts.end(), Verdict::kMatched, Verdict::kHeld);
   }
+  note_seen(verdicts);
   add_new(sightings, verdicts);
+  merge_what_is_one();
+  result.merged = static_cast<int>(merged_.size());
   tally(verdicts, result);
   return result;
 }
@@ -76,25 +96,23 @@ BodyObservation Slam::body(const Sighting& sighting) const {
 }
 
 void Slam::judge_all(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    verdicts[i] = judge(sightings[i], candidates_[i]);
-  }
+  local_.begin(travel_m_);
+  for (std::size_t i = 0; i < sightings.size(); ++i) verdicts[i] = judge(i, sightings[i]);
   keep_best_pairs(verdicts);
+  local_.decide(verdicts, candidates_);
 }
 
-Verdict Slam::judge(const Sighting& sighting, Candidate& candidate) const {
-  candidate = {};
+/// Known identities for good; of unknown ones kAdded stands until all are decided together.
+Verdict Slam::judge(std::size_t i, const Sighting& sighting) {
+  Candidate& candidate = candidates_[i] = {};
   const Verdict fault = check(sighting);
   if (fault != Verdict::kMatched) return fault;
-  const bool is_known = sighting.identity >= 0;
-  candidate = is_known ? find_identity(filter_, sighting, body(sighting))
-                       : find_nearest(filter_, sighting, body(sighting), kNewLandmarkSq);
-  if (candidate.landmark == Candidate::kNone) return Verdict::kAdded;
-  if (is_known) {
-    return candidate.mahalanobis_sq < kKnownGateSq ? Verdict::kMatched : Verdict::kOutlier;
+  if (sighting.identity < 0) {
+    return local_.offer(i, sighting, body(sighting)) ? Verdict::kAdded : Verdict::kPassedOver;
   }
-  if (candidate.mahalanobis_sq < candidate.gate_sq) return Verdict::kMatched;
-  return candidate.mahalanobis_sq > kNewLandmarkSq ? Verdict::kAdded : Verdict::kAmbiguous;
+  candidate = find_identity(filter_, sighting, body(sighting));
+  if (candidate.landmark == Candidate::kNone) return Verdict::kAdded;
+  return candidate.mahalanobis_sq < kKnownGateSq ? Verdict::kMatched : Verdict::kOutlier;
 }
 
 /// Of the sightings matched to one landmark, the nearest keeps it.
@@ -168,6 +186,7 @@ void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> 
 }
 
 void Slam::add_new(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
+  tentative_.begin(filter_.pose(), travel_m_);
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     if (verdicts[i] == Verdict::kReplaced) {
       filter_.remove(find_identity(filter_, sightings[i], body(sightings[i])).landmark);
@@ -180,14 +199,43 @@ void Slam::add_new(std::span<const Sighting> sightings, std::span<Verdict> verdi
 
 Verdict Slam::add(const Sighting& sighting) {
   const BodyObservation seen = body(sighting);
-  const bool twice_in_frame =
-      sighting.identity >= 0 && find_identity(filter_, sighting, seen).landmark != Candidate::kNone;
-  if (twice_in_frame) return Verdict::kTaken;
+  if (sighting.identity < 0) {
+    if (!tentative_.confirms(sighting, seen, params_.confirm_sightings)) return Verdict::kTentative;
+  } else if (find_identity(filter_, sighting, seen).landmark != Candidate::kNone) {
+    return Verdict::kTaken;  // twice in one frame
+  }
   const Landmark landmark{.identity = sighting.identity,
                           .kind = sighting.kind,
                           .signature = sighting.signature,
-                          .times_seen = 1};
+                          .times_seen = 1,
+                          .first_seen_travel_m = travel_m_,
+                          .last_seen_travel_m = travel_m_};
   return filter_.add(seen, landmark) ? Verdict::kAdded : Verdict::kBudgetFull;
+}
+
+void Slam::note_seen(std::span<const Verdict> verdicts) {
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i] != Verdict::kMatched && verdicts[i] != Verdict::kHeld) continue;
+    filter_.landmark(candidates_[i].landmark).last_seen_travel_m = travel_m_;
+  }
+}
+
+void Slam::merge_what_is_one() {
+  merged_.clear();
+  if (travel_m_ < closure_due_travel_m_) return;
+  closure_due_travel_m_ = travel_m_ + kClosureEvery_m;
+  merge(closure_.find(travel_m_));
+  merge(twins_.find(travel_m_));
+}
+
+void Slam::merge(std::span<const LandmarkPair> pairs) {
+  if (pairs.empty()) return;
+  const std::size_t before = merged_.size();
+  for (const LandmarkPair& pair : pairs) {
+    merged_.push_back({filter_.landmark(pair.recent).map_id, filter_.landmark(pair.old).map_id});
+  }
+  const bool is_done = filter_.merge(pairs, ConstellationClosure::kSigma_m) == UpdateResult::kUsed;
+  if (!is_done) merged_.resize(before);
 }
 
 }  // namespace roomwise::ekf

@@ -3,10 +3,14 @@
 #include <vector>
 
 #include "services/ekf_svc/core/association.h"
+#include "services/ekf_svc/core/constellation_closure.h"
 #include "services/ekf_svc/core/ekf_params.h"
 #include "services/ekf_svc/core/gate_monitor.h"
+#include "services/ekf_svc/core/local_association.h"
 #include "services/ekf_svc/core/sighting.h"
 #include "services/ekf_svc/core/slam_filter.h"
+#include "services/ekf_svc/core/tentative_landmarks.h"
+#include "services/ekf_svc/core/twin_landmarks.h"
 
 namespace roomwise::ekf {
 
@@ -16,6 +20,7 @@ struct FrameResult {
   int matched = 0;
   int added = 0;
   int rejected = 0;           ///< unusable, ambiguous or refused by a gate
+  int merged = 0;             ///< landmarks found to be others
   bool pose_widened = false;  ///< the gate was locking the filter out
 };
 
@@ -23,15 +28,17 @@ struct FrameResult {
 /// of, corrects the filter by all of them at once, then adds what is new.
 ///
 /// Known identity: the pair must pass a gate at d^2 = 25; see GateMonitor for what happens when it
-/// does not. Unknown identity: two gates (Bailey et al., IROS 2006). The nearest landmark is
-/// matched below the 99 % quantile; a landmark is begun only if the nearest is beyond d^2 = 25;
-/// between the two a sighting is ignored.
+/// does not. Unknown identity: see LocalAssociation for the frame, TentativeLandmarks for what is
+/// new, ConstellationClosure and TwinLandmarks for what turns out to have been mapped before.
 class Slam {
  public:
   explicit Slam(const EkfParams& params);
 
+  Slam(const Slam&) = delete;
+  Slam& operator=(const Slam&) = delete;
+
   /// Moves the robot. O(landmarks).
-  void predict(const MotionIncrement& motion) { filter_.predict(motion); }
+  void predict(const MotionIncrement& motion);
 
   /// Uses a frame taken at the present pose. `may_update` false: landmarks already mapped are not
   /// measured again, new ones are added. `verdicts` (as long as `sightings`) says what became of
@@ -41,14 +48,24 @@ class Slam {
 
   const SlamFilter& filter() const { return filter_; }
 
+  /// Landmarks the last frame found to be others, by map_id.
+  struct Merged {
+    std::int64_t recent_id;
+    std::int64_t old_id;
+  };
+  std::span<const Merged> merged() const { return merged_; }
+
  private:
   void judge_all(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
-  Verdict judge(const Sighting& sighting, Candidate& candidate) const;
+  Verdict judge(std::size_t i, const Sighting& sighting);
   void keep_best_pairs(std::span<Verdict> verdicts);
   bool learn_from_refusals(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   void widen_pose();
   void update(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   void update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  void note_seen(std::span<const Verdict> verdicts);
+  void merge_what_is_one();
+  void merge(std::span<const LandmarkPair> pairs);
   void add_new(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   Verdict add(const Sighting& sighting);
   BodyObservation body(const Sighting& sighting) const;
@@ -56,6 +73,13 @@ class Slam {
   EkfParams params_;
   SlamFilter filter_;
   GateMonitor gate_monitor_;
+  LocalAssociation local_;
+  TentativeLandmarks tentative_;
+  ConstellationClosure closure_;
+  TwinLandmarks twins_;
+  std::vector<Merged> merged_;
+  double travel_m_ = 0.0;                // way gone since the start
+  double closure_due_travel_m_ = 0.0;    // when to look for closed loops again
   double widening_ratio_ = 1.0;          // doubles while widening does not help
   std::vector<Candidate> candidates_;    // per sighting of the frame
   std::vector<std::size_t> claimed_by_;  // per landmark: sighting that has it in this frame

@@ -1,12 +1,28 @@
 #include "services/ekf_svc/core/slam_filter.h"
 
+#include <algorithm>
+#include <array>
+#include <functional>
+
 #include "services/ekf_svc/core/planar_group.h"
+#include "services/ekf_svc/core/signature.h"
 
 namespace roomwise::ekf {
 namespace {
 
 // The map starts at the pose, so it is exact; a trace of variance keeps P positive definite.
 constexpr double kStartVariance = 1e-12;
+
+Landmark united(const Landmark& old, const Landmark& recent) {
+  constexpr std::int32_t kTimesSeenMax = 1'000'000'000;
+  Landmark both = old;
+  both.times_seen =
+      std::min(old.times_seen, kTimesSeenMax) + std::min(recent.times_seen, kTimesSeenMax);
+  both.signature = fused(old.signature, recent.signature);
+  both.last_seen_travel_m = std::max(old.last_seen_travel_m, recent.last_seen_travel_m);
+  both.refusals = 0;
+  return both;
+}
 
 }  // namespace
 
@@ -18,32 +34,49 @@ SlamFilter::SlamFilter(ErrorForm form, std::size_t landmark_budget)
       gains_(kDimensionMax * covariance_.stride()),
       scratch_(4 * covariance_.stride()) {
   landmarks_.reserve(landmark_budget);
+  equalities_.reserve(kResidualsMax);
+  leaving_.reserve(kResidualsMax);
   for (std::size_t i = 0; i < kPoseSize; ++i) covariance_.set(i, i, kStartVariance);
 }
 
 void SlamFilter::predict(const MotionIncrement& motion) {
-  const Eigen::Matrix3d moved_pose =
-      moved_covariance(heading(), pose_covariance(), motion);  // before x_ changes
+  const RobotMatrix moved_robot =
+      moved_covariance(heading(), robot_covariance(), motion);  // before x_ changes
+  const RobotMatrix F = transition(heading(), motion);
   const Eigen::Vector2d shift = rotation2(heading()) * motion.translation_m;
-  const Eigen::Vector2d lever = quarter_turn(shift);
 
-  const double* with_heading = covariance_.row(kHeading);
-  double* with_x = covariance_.row(kPosition);
-  double* with_y = covariance_.row(kPosition + 1);
-  for (std::size_t j = kPoseSize; j < size(); ++j) {
-    with_x[j] += lever.x() * with_heading[j];
-    with_y[j] += lever.y() * with_heading[j];
+  std::array<double*, kRobotSize> rows;
+  for (std::size_t i = 0; i < kRobotSize; ++i) rows[i] = covariance_.row(i);
+  for (std::size_t j = kRobotSize; j < size(); ++j) {
+    Eigen::Vector3d with_pose(rows[0][j], rows[1][j], rows[2][j]);
+    const Eigen::Vector3d with_calibration(rows[3][j], rows[4][j], rows[5][j]);
+    with_pose.tail<2>() += F.block<2, 1>(1, 0) * with_pose(0);
+    with_pose += F.topRightCorner<3, 3>() * with_calibration;
+    for (std::size_t i = 0; i < kPoseSize; ++i) {
+      rows[i][j] = with_pose(static_cast<Eigen::Index>(i));
+    }
   }
-  for (std::size_t i = 0; i < kPoseSize; ++i) {
-    for (std::size_t j = i; j < kPoseSize; ++j) {
+  for (std::size_t i = 0; i < kRobotSize; ++i) {
+    for (std::size_t j = i; j < kRobotSize; ++j) {
       const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
-      covariance_.set(i, j, 0.5 * (moved_pose(r, c) + moved_pose(c, r)));
+      covariance_.set(i, j, 0.5 * (moved_robot(r, c) + moved_robot(c, r)));
     }
   }
   double* x = x_.data();
   x[kHeading] = wrap_angle(x[kHeading] + motion.turn_rad);
   x[kPosition] += shift.x();
   x[kPosition + 1] += shift.y();
+}
+
+void SlamFilter::free_calibration(const Eigen::Vector3d& sigma) {
+  drift_calibration(sigma.cwiseProduct(sigma));
+}
+
+void SlamFilter::drift_calibration(const Eigen::Vector3d& variance) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = kCalibration + k;
+    covariance_.set(i, i, covariance_.at(i, i) + variance(static_cast<Eigen::Index>(k)));
+  }
 }
 
 void SlamFilter::widen_pose(double position_sigma_m, double heading_sigma_rad) {
@@ -63,20 +96,20 @@ bool SlamFilter::add(const BodyObservation& seen, const Landmark& landmark) {
   const double* with_heading = covariance_.row(kHeading);
   const double* with_x = covariance_.row(kPosition);
   const double* with_y = covariance_.row(kPosition + 1);
-  // Rows of the pose first: the others need only them.
+  // Rows of the robot first: the others need only them.
   Eigen::Matrix<double, 2, 3> G;
   G << lever.x(), 1.0, 0.0, lever.y(), 0.0, 1.0;
-  const Eigen::Matrix<double, 2, 3> with_pose = G * pose_covariance();
-  for (std::size_t j = kPoseSize; j < n; ++j) {
+  const Eigen::Matrix<double, 2, 6> with_robot = G * robot_covariance().topRows<3>();
+  for (std::size_t j = kRobotSize; j < n; ++j) {
     covariance_.row(j)[n] = lever.x() * with_heading[j] + with_x[j];
     covariance_.row(j)[n + 1] = lever.y() * with_heading[j] + with_y[j];
   }
-  for (std::size_t j = 0; j < kPoseSize; ++j) {
-    covariance_.row(j)[n] = with_pose(0, static_cast<Eigen::Index>(j));
-    covariance_.row(j)[n + 1] = with_pose(1, static_cast<Eigen::Index>(j));
+  for (std::size_t j = 0; j < kRobotSize; ++j) {
+    covariance_.row(j)[n] = with_robot(0, static_cast<Eigen::Index>(j));
+    covariance_.row(j)[n + 1] = with_robot(1, static_cast<Eigen::Index>(j));
   }
-  const Eigen::Matrix2d own =
-      with_pose * G.transpose() + rotation * seen.covariance_m2 * rotation.transpose();
+  const Eigen::Matrix2d own = with_robot.leftCols<3>() * G.transpose() +
+                              rotation * seen.covariance_m2 * rotation.transpose();
   covariance_.set(n, n, own(0, 0));
   covariance_.set(n, n + 1, 0.5 * (own(0, 1) + own(1, 0)));
   covariance_.set(n + 1, n + 1, own(1, 1));
@@ -108,14 +141,21 @@ void SlamFilter::remove(std::size_t l) {
   landmarks_.pop_back();
 }
 
-UpdateResult SlamFilter::merge(std::size_t i, std::size_t j, double sigma_m) {
-  const Residual equal = equality_residual(i, j, sigma_m);
-  const UpdateResult result = update({&equal, 1});
+UpdateResult SlamFilter::merge(std::span<const LandmarkPair> pairs, double sigma_m) {
+  equalities_.clear();
+  leaving_.clear();
+  for (const LandmarkPair& pair : pairs) {
+    equalities_.push_back(equality_residual(pair.recent, pair.old, sigma_m));
+  }
+  const UpdateResult result = update(equalities_);
   if (result != UpdateResult::kUsed) return result;
-  const bool i_is_older = landmarks_[i].map_id < landmarks_[j].map_id;
-  Landmark& older = landmarks_[i_is_older ? i : j];
-  older.times_seen += landmarks_[i_is_older ? j : i].times_seen;
-  remove(i_is_older ? j : i);
+  for (const LandmarkPair& pair : pairs) {
+    landmarks_[pair.old] = united(landmarks_[pair.old], landmarks_[pair.recent]);
+    leaving_.push_back(pair.recent);
+  }
+  // The highest number first: what takes its place is never itself about to leave.
+  std::sort(leaving_.begin(), leaving_.end(), std::greater<>());
+  for (const std::size_t l : leaving_) remove(l);
   return result;
 }
 
@@ -124,9 +164,18 @@ Pose2 SlamFilter::pose() const {
 }
 
 Eigen::Matrix3d SlamFilter::pose_covariance() const {
-  Eigen::Matrix3d P;
-  for (std::size_t i = 0; i < kPoseSize; ++i) {
-    for (std::size_t j = 0; j < kPoseSize; ++j) {
+  return robot_covariance().topLeftCorner<3, 3>();
+}
+
+OdometryCalibration SlamFilter::calibration() const {
+  const double* value = x_.data() + kCalibration;
+  return {{value[0], value[1], value[2]}};
+}
+
+RobotMatrix SlamFilter::robot_covariance() const {
+  RobotMatrix P;
+  for (std::size_t i = 0; i < kRobotSize; ++i) {
+    for (std::size_t j = 0; j < kRobotSize; ++j) {
       P(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = covariance_.at(i, j);
     }
   }

@@ -10,6 +10,7 @@
 #include "services/ekf_svc/core/covariance_store.h"
 #include "services/ekf_svc/core/covariance_sweep.h"
 #include "services/ekf_svc/core/landmark.h"
+#include "services/ekf_svc/core/landmark_pair.h"
 #include "services/ekf_svc/core/motion.h"
 #include "services/ekf_svc/core/residual.h"
 
@@ -35,13 +36,13 @@ struct InnovationStatistics {
 /// The mathematics of EKF-SLAM in the plane: state, covariance and what may be done to them. Which
 /// measurement belongs to which landmark is decided elsewhere.
 ///
-/// State for L landmarks, n = 3 + 2 L, in the map frame (the pose at construction):
-///   x  n      [heading | x y | l0x l0y | l1x l1y | ...]  [rad m m ...]
+/// State for L landmarks, n = 6 + 2 L, in the map frame (the pose at construction):
+///   x  n      [heading | x y | OdometryCalibration | l0x l0y | l1x l1y | ...]
 ///   P  n x n  covariance of the additive error, same order
 ///
 /// The invariant form keeps P of additive errors d, in which prediction costs O(n), and is
 /// nevertheless exactly the right-invariant EKF, whose error is e = d - u d_heading with
-/// u = (0, J p, J l0, ...): its update in d is
+/// u = (0, J p, 0, J l0, ...): its update in d is
 ///   d = K innovation,  a = d_heading,
 ///   heading += a,  q = R(a) q + V(a) (d_q - J q a)      for robot and landmarks q,
 ///   P = P - K S K^T + g c^T + c g^T + c_heading g g^T,
@@ -61,6 +62,16 @@ class SlamFilter {
   /// Moves the robot. O(n).
   void predict(const MotionIncrement& motion);
 
+  /// Lets the odometry's calibration be estimated, from these sigmas on. At construction they are
+  /// 0: odometry is taken at its word.
+  void free_calibration(const Eigen::Vector3d& sigma);
+  /// Adds variance to the calibration: tyres wear, floors change. O(1).
+  void drift_calibration(const Eigen::Vector3d& variance);
+
+  /// From now on updates move the robot alone, and know how uncertain the map is (Schmidt's
+  /// consider filter).
+  void fix_map(bool is_fixed) { map_is_fixed_ = is_fixed; }
+
   /// Adds variance to the pose alone: something moved the robot that odometry did not see. O(n).
   void widen_pose(double position_sigma_m, double heading_sigma_rad);
 
@@ -74,6 +85,9 @@ class SlamFilter {
 
   /// S = H P H^T + noise of one residual. Shape 2 x 2. O(1).
   Eigen::Matrix2d innovation_covariance(const Residual& residual) const;
+
+  /// H_a P H_b^T of two residuals, without their noise. Shape 2 x 2. O(1).
+  Eigen::Matrix2d cross_covariance(const Residual& a, const Residual& b) const;
 
   /// Corrects the state by all residuals at once (at most kResidualsMax), linearised at the present
   /// state. One sweep over the upper half of P. Throws std::logic_error on too many.
@@ -89,13 +103,17 @@ class SlamFilter {
   /// Forgets landmark `l` (marginalises it); the last landmark takes its number. O(n).
   void remove(std::size_t l);
 
-  /// Makes the younger of two landmarks part of the older one. On success the older one holds both
-  /// counts, and the younger is removed.
-  UpdateResult merge(std::size_t i, std::size_t j, double sigma_m);
+  /// Makes the recent landmark of each pair part of the old one, all in one update. On success the
+  /// old ones hold what was known of both, and the recent ones are removed: landmark numbers
+  /// change. No landmark may be in two pairs.
+  UpdateResult merge(std::span<const LandmarkPair> pairs, double sigma_m);
 
   Pose2 pose() const;
   /// Covariance of (heading, x, y). Shape 3 x 3 [rad^2, rad m, m^2].
   Eigen::Matrix3d pose_covariance() const;
+  OdometryCalibration calibration() const;
+  /// Covariance of (heading, x, y, calibration). Shape 6 x 6.
+  RobotMatrix robot_covariance() const;
 
   std::size_t landmark_count() const { return landmarks_.size(); }
   std::size_t landmark_budget() const { return budget_; }
@@ -110,14 +128,16 @@ class SlamFilter {
   const InnovationStatistics& last_innovation() const { return last_innovation_; }
 
   /// n and single elements, for tests and diagnosis.
-  std::size_t size() const { return kPoseSize + 2 * landmarks_.size(); }
+  std::size_t size() const { return landmark_index(landmarks_.size()); }
   double state(std::size_t i) const { return x_.data()[i]; }
   double covariance(std::size_t i, std::size_t j) const { return covariance_.at(i, j); }
 
-  static constexpr std::size_t kPoseSize = 3;
   static constexpr std::size_t kHeading = 0;
   static constexpr std::size_t kPosition = 1;
-  static constexpr std::size_t landmark_index(std::size_t l) { return kPoseSize + 2 * l; }
+  static constexpr std::size_t kCalibration = 3;
+  static constexpr std::size_t kPoseSize = 3;
+  static constexpr std::size_t kRobotSize = 6;
+  static constexpr std::size_t landmark_index(std::size_t l) { return kRobotSize + 2 * l; }
 
  private:
   static constexpr std::size_t kDimensionMax = 2 * kResidualsMax;
@@ -133,11 +153,16 @@ class SlamFilter {
   void whiten(std::size_t dimension, const InnovationMatrix& L, double* innovation);
   void correct(std::size_t dimension, const double* whitened);
   void retract(const double* correction);
+  void retract_point(std::size_t i, const Eigen::Matrix2d& V, const double* correction);
   void sweep(std::size_t dimension);
+  void correct_robot(std::size_t dimension, const double* correction);
 
   ErrorForm form_;
   std::size_t budget_;
+  bool map_is_fixed_ = false;
   std::vector<Landmark> landmarks_;
+  std::vector<Residual> equalities_;  // of one merge
+  std::vector<std::size_t> leaving_;  // landmarks it removes
   std::int64_t next_map_id_ = 1;
   InnovationStatistics last_innovation_;
 

@@ -31,6 +31,19 @@ bool cholesky(Matrix& matrix, std::size_t dimension) {
   return true;
 }
 
+/// A residual's H: where its columns stand, and what they hold.
+struct SparseJacobian {
+  std::array<std::size_t, 5> columns;
+  Eigen::Matrix<double, 2, 5> values;
+};
+
+SparseJacobian sparse(const Residual& residual) {
+  const auto& [a, b] = residual.points;
+  SparseJacobian H{{SlamFilter::kHeading, a.index, a.index + 1, b.index, b.index + 1}, {}};
+  H.values << residual.heading, a.value, b.value;
+  return H;
+}
+
 bool residual_is_finite(const Residual& residual) {
   return residual.innovation.allFinite() && residual.noise.allFinite() &&
          residual.heading.allFinite();
@@ -57,19 +70,20 @@ Residual SlamFilter::equality_residual(std::size_t i, std::size_t j, double sigm
           .points = {{{landmark_index(i), to_robot}, {landmark_index(j), -to_robot}}}};
 }
 
-Eigen::Matrix2d SlamFilter::innovation_covariance(const Residual& residual) const {
-  const auto& [a, b] = residual.points;
-  Eigen::Matrix<double, 2, 5> H;
-  H << residual.heading, a.value, b.value;
-  const std::array<std::size_t, 5> columns{kHeading, a.index, a.index + 1, b.index, b.index + 1};
+Eigen::Matrix2d SlamFilter::cross_covariance(const Residual& a, const Residual& b) const {
+  const SparseJacobian H_a = sparse(a), H_b = sparse(b);
   Eigen::Matrix<double, 5, 5> P;
-  for (Eigen::Index i = 0; i < 5; ++i) {
-    for (Eigen::Index j = i; j < 5; ++j) {
-      P(i, j) = P(j, i) = covariance_.at(columns[static_cast<std::size_t>(i)],
-                                         columns[static_cast<std::size_t>(j)]);
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t j = 0; j < 5; ++j) {
+      P(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          covariance_.at(H_a.columns[i], H_b.columns[j]);
     }
   }
-  return H * P * H.transpose() + residual.noise;
+  return H_a.values * P * H_b.values.transpose();
+}
+
+Eigen::Matrix2d SlamFilter::innovation_covariance(const Residual& residual) const {
+  return cross_covariance(residual, residual) + residual.noise;
 }
 
 UpdateResult SlamFilter::update(std::span<const Residual> residuals) {
@@ -159,6 +173,7 @@ void SlamFilter::correct(std::size_t dimension, const double* whitened) {
   for (std::size_t k = 0; k < dimension; ++k) {
     for (std::size_t i = 0; i < n; ++i) correction[i] += whitened[k] * gain(k)[i];
   }
+  if (map_is_fixed_) return correct_robot(dimension, correction);
   retract(correction);
   sweep(dimension);
 }
@@ -171,18 +186,36 @@ void SlamFilter::retract(const double* correction) {
   std::fill(g, g + CovarianceStore::padded(n), 0.0);
   const double turn = correction[kHeading];
   x[kHeading] = wrap_angle(x[kHeading] + turn);
-  const bool invariant = form_ == ErrorForm::kInvariant;
-  const Eigen::Matrix2d V = invariant ? arc_matrix(turn) : Eigen::Matrix2d::Identity();
-  for (std::size_t i = kPosition; i < n; i += 2) {
-    const Eigen::Vector2d q(x[i], x[i + 1]);
-    const Eigen::Vector2d along(correction[i], correction[i + 1]);
-    // R(a) q - V(a) J q a = q, because V(a) J a = R(a) - I.
-    const Eigen::Vector2d moved_by = V * along;
-    x[i] = q.x() + moved_by.x();
-    x[i + 1] = q.y() + moved_by.y();
-    if (!invariant) continue;
-    g[i] = -moved_by.y();
-    g[i + 1] = moved_by.x();
+  for (std::size_t i = kCalibration; i < kRobotSize; ++i) x[i] += correction[i];
+  const Eigen::Matrix2d V =
+      form_ == ErrorForm::kInvariant ? arc_matrix(turn) : Eigen::Matrix2d::Identity();
+  retract_point(kPosition, V, correction);
+  for (std::size_t i = kRobotSize; i < n; i += 2) retract_point(i, V, correction);
+}
+
+void SlamFilter::retract_point(std::size_t i, const Eigen::Matrix2d& V, const double* correction) {
+  // R(a) q - V(a) J q a = q, because V(a) J a = R(a) - I.
+  const Eigen::Vector2d moved_by = V * Eigen::Vector2d(correction[i], correction[i + 1]);
+  x_.data()[i] += moved_by.x();
+  x_.data()[i + 1] += moved_by.y();
+  if (form_ != ErrorForm::kInvariant) return;
+  scratch(kTilt)[i] = -moved_by.y();
+  scratch(kTilt)[i + 1] = moved_by.x();
+}
+
+/// The robot's share of the correction and of P - W W^T; the map stays as it is. The map tells
+/// where the world's origin is, so that there is nothing for the invariant form to protect.
+void SlamFilter::correct_robot(std::size_t dimension, const double* correction) {
+  double* x = x_.data();
+  for (std::size_t i = 0; i < kRobotSize; ++i) x[i] += correction[i];
+  x[kHeading] = wrap_angle(x[kHeading]);
+  for (std::size_t i = 0; i < kRobotSize; ++i) {
+    double* row = covariance_.row(i);
+    for (std::size_t k = 0; k < dimension; ++k) {
+      const double* w = gain(k);
+      for (std::size_t j = i; j < size(); ++j) row[j] -= w[i] * w[j];
+    }
+    row[i] = std::max(row[i], i < kPoseSize ? kVarianceFloor : 0.0);
   }
 }
 
@@ -207,7 +240,8 @@ void SlamFilter::sweep(std::size_t dimension) {
   }
   sweep_upper(covariance_.data(), covariance_.stride(), n, {terms.data(), term_count});
   for (std::size_t i = 0; i < n; ++i) {
-    covariance_.set(i, i, std::max(covariance_.at(i, i), kVarianceFloor));
+    const bool may_be_exact = i >= kCalibration && i < kRobotSize;
+    covariance_.set(i, i, std::max(covariance_.at(i, i), may_be_exact ? 0.0 : kVarianceFloor));
   }
 }
 

@@ -124,7 +124,10 @@ RC_GTEST_PROP(Motion, MovedCovarianceUsesTheNumericJacobians, ()) {
       },
       {motion.turn_rad, motion.translation_m.x(), motion.translation_m.y()});
   const Eigen::Matrix3d expected = F * P * F.transpose() + G * motion.covariance * G.transpose();
-  const Eigen::Matrix3d actual = moved_covariance(pose.heading_rad, P, motion);
+  RobotMatrix robot = RobotMatrix::Zero();
+  robot.topLeftCorner<3, 3>() = P;
+  const Eigen::Matrix3d actual =
+      moved_covariance(pose.heading_rad, robot, motion).topLeftCorner<3, 3>();
   RC_ASSERT((actual - expected).cwiseAbs().maxCoeff() < 1e-8);
 }
 

@@ -49,7 +49,11 @@ class SlamTest : public testing::Test {
     return (slam_.filter().pose().position_m() - truth_.position_m()).norm();
   }
 
-  Slam slam_{EkfParams{}};
+  Slam slam_{[] {
+    EkfParams params;
+    params.confirm_sightings = 1;
+    return params;
+  }()};
   Pose2 truth_;
   std::vector<Eigen::Vector2d> landmarks_{{3.0, 0.0}, {2.0, 2.0}, {2.5, -1.5}, {1.0, 3.0}};
   std::vector<Verdict> verdicts_;
@@ -91,7 +95,7 @@ TEST_F(SlamTest, UnknownIdentityTwoGates) {
 TEST_F(SlamTest, OnlyTheNearestSightingTakesALandmark) {
   look({sighting_of(truth_, {3.0, 0.0}, -1)});
   look({sighting_of(truth_, {3.02, 0.0}, -1), sighting_of(truth_, {3.0, 0.0}, -1)});
-  EXPECT_EQ(verdicts_[0], Verdict::kTaken);
+  EXPECT_EQ(verdicts_[0], Verdict::kAmbiguous);
   EXPECT_EQ(verdicts_[1], Verdict::kMatched);
   EXPECT_EQ(slam_.filter().landmark_count(), 1U);
 }

@@ -32,19 +32,26 @@ inline SlamFilter filter_at(ErrorForm form, const Pose2& pose,
   return filter;
 }
 
+/// The filter's numbers of row r when odometry's calibration, fixed here, is left out.
+inline std::size_t row_of(Eigen::Index r) {
+  const auto i = static_cast<std::size_t>(r);
+  return i < SlamFilter::kPoseSize ? i : i + SlamFilter::kRobotSize - SlamFilter::kPoseSize;
+}
+inline Eigen::Index rows_of(const SlamFilter& filter) {
+  return static_cast<Eigen::Index>(filter.size() - SlamFilter::kRobotSize + SlamFilter::kPoseSize);
+}
+
 inline Eigen::VectorXd state_of(const SlamFilter& filter) {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(filter.size()));
-  for (std::size_t i = 0; i < filter.size(); ++i) x(static_cast<Eigen::Index>(i)) = filter.state(i);
+  Eigen::VectorXd x(rows_of(filter));
+  for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = filter.state(row_of(i));
   return x;
 }
 
 inline Eigen::MatrixXd covariance_of(const SlamFilter& filter) {
-  const auto n = static_cast<Eigen::Index>(filter.size());
+  const Eigen::Index n = rows_of(filter);
   Eigen::MatrixXd P(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      P(i, j) = filter.covariance(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-    }
+    for (Eigen::Index j = 0; j < n; ++j) P(i, j) = filter.covariance(row_of(i), row_of(j));
   }
   return P;
 }
@@ -60,12 +67,14 @@ inline Eigen::MatrixXd invariant_covariance_of(const SlamFilter& filter) {
   return T * covariance_of(filter) * T.transpose();
 }
 
-/// Residual's H as a dense row block, 2 x n.
-inline Eigen::MatrixXd dense_jacobian(const Residual& residual, std::size_t n) {
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(n));
+/// Residual's H as a dense row block, 2 x rows_of(filter).
+inline Eigen::MatrixXd dense_jacobian(const Residual& residual, const SlamFilter& filter) {
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, rows_of(filter));
   H.col(0) = residual.heading;
   for (const JacobianBlock& block : residual.points) {
-    H.middleCols<2>(static_cast<Eigen::Index>(block.index)) += block.value;
+    for (Eigen::Index r = 0; r < H.cols(); ++r) {
+      if (row_of(r) == block.index) H.middleCols<2>(r) += block.value;
+    }
   }
   return H;
 }

@@ -1,0 +1,87 @@
+#include "services/ekf_svc/core/local_association.h"
+
+#include <algorithm>
+
+#include "services/ekf_svc/core/chi_square.h"
+
+namespace roomwise::ekf {
+namespace {
+
+constexpr double kReach_m = 15.0;          // farther landmarks are never in view
+constexpr double kWellKnownSigma_m = 0.1;  // a third of how near landmarks stand to each other
+constexpr JointCompatibility::Limits kLimits{.normal_quantile = kNormal99, .nodes = 3000};
+
+}  // namespace
+
+LocalAssociation::LocalAssociation(const SlamFilter& filter) : filter_(&filter), joint_(filter) {
+  locals_.reserve(filter.landmark_budget());
+  offers_.reserve(256);
+}
+
+void LocalAssociation::begin(double travel_m) {
+  locals_.clear();
+  offers_.clear();
+  joint_.clear();
+  const Eigen::Matrix3d P = filter_->pose_covariance();
+  const Eigen::Vector2d p_robot_m = filter_->pose().position_m();
+  for (std::size_t l = 0; l < filter_->landmark_count(); ++l) {
+    const Landmark& landmark = filter_->landmark(l);
+    if (landmark.identity >= 0) continue;
+    const Eigen::Vector2d p_map_m = filter_->landmark_position_m(l);
+    const double range_m2 = (p_map_m - p_robot_m).squaredNorm();
+    if (range_m2 > kReach_m * kReach_m) continue;
+    // cov(a + b + c) <= 3 (cov a + cov b + cov c)
+    const double spread_m2 =
+        3.0 * (range_m2 * P(0, 0) + P(1, 1) + P(2, 2) + filter_->landmark_covariance_m2(l).trace());
+    const bool is_seen_lately = travel_m - landmark.last_seen_travel_m <= kLocalTravel_m;
+    locals_.push_back({l, p_map_m, spread_m2, is_seen_lately});
+  }
+}
+
+bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
+                             const BodyObservation& seen) {
+  const Eigen::Vector2d p_map_m = transform(filter_->pose(), seen.p_robot_m);
+  const double noise_m2 = seen.covariance_m2.trace();
+  Offer offer{sighting, std::numeric_limits<double>::infinity(), false};
+  for (const LocalLandmark& local : locals_) {
+    if (filter_->landmark(local.index).kind != what.kind) continue;
+    const double distance_m2 = (local.p_map_m - p_map_m).squaredNorm();
+    if (distance_m2 > kNewLandmarkSq * (noise_m2 + local.spread_m2)) continue;
+    const Residual residual = filter_->observation_residual(local.index, seen);
+    const Eigen::Matrix2d S = filter_->innovation_covariance(residual);
+    const double relative_m2 = S.trace() - residual.noise.trace();
+    if (!local.is_seen_lately && relative_m2 > 2.0 * kWellKnownSigma_m * kWellKnownSigma_m) {
+      continue;
+    }
+    const SignatureDistance colour =
+        distance(what.signature, filter_->landmark(local.index).signature);
+    const double squared = mahalanobis_sq(residual.innovation, S) + colour.squared;
+    offer.nearest_sq = std::min(offer.nearest_sq, squared);
+    if (squared >= chi_square_quantile(2 + colour.degrees_of_freedom, kNormal99)) continue;
+    if (!offer.has_candidates) {
+      if (joint_.is_full()) return false;
+      joint_.begin_observation();
+      offer.has_candidates = true;
+    }
+    joint_.add({residual, local.index, colour, squared});
+  }
+  offers_.push_back(offer);
+  return true;
+}
+
+void LocalAssociation::decide(std::span<Verdict> verdicts, std::span<Candidate> candidates) {
+  const JointCompatibility::Answer& answer = joint_.search(kLimits);
+  std::size_t observation = 0;
+  for (const Offer& offer : offers_) {
+    const Pairing* pairing = offer.has_candidates ? answer.chosen[observation++] : nullptr;
+    Verdict& verdict = verdicts[offer.sighting];
+    if (pairing != nullptr) {
+      verdict = Verdict::kMatched;
+      candidates[offer.sighting] = {pairing->target, pairing->squared};
+    } else {
+      verdict = offer.nearest_sq > kNewLandmarkSq ? Verdict::kAdded : Verdict::kAmbiguous;
+    }
+  }
+}
+
+}  // namespace roomwise::ekf
