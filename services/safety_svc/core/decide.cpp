@@ -23,7 +23,6 @@ ReasonSet vetoes(const Instant& now, const World& world) {
                          world.frame.is_distrusted(now) || world.odometry.is_distrusted(now) ||
                          world.body_state.is_distrusted(now);
   if (distrusts) reasons.add(Reason::kClock);
-  if (world.is_tilted()) reasons.add(Reason::kTilt);
   return reasons;
 }
 
@@ -128,6 +127,7 @@ Decision decide(const Instant& now, const World& world, const Granted& before,
   decision.reverse_way_m = world.track().reverse_way_m(now, curvature_radpm(granted));
   const bool moves = granted.speed_mps != 0.0 || granted.turn_rate_radps != 0.0;
   if (moves && granted.speed_mps >= 0.0) held.add(ahead_vetoes_of(world.body()));
+  if (granted.speed_mps > 0.0 && world.is_tilted()) held.add(Reason::kTilt);
   if (!held.is_empty()) {
     stop(held, decision);
     return decision;

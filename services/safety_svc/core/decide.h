@@ -24,7 +24,8 @@ struct Decision {
 ///
 /// Zero for any of: nobody asks, an emergency stop, a clock or stamp that cannot be true, an input
 /// that is missing or older than its limit, a mode that does not drive, a hanging wheel,
-/// overcurrent, a charger, a camera out of place. With a bumper, cliff or virtual wall only back.
+/// overcurrent, a charger. With a bumper, cliff or virtual wall only back; with the camera out of
+/// place back or turning, which bring the floor into view again.
 /// Otherwise what is asked, brought
 ///   - under the robot's limits and the acceleration's, speed and turn rate by one factor so that
 ///     the curvature stays; a turn rate that grows too fast is held back alone;

@@ -15,6 +15,7 @@ constexpr double kTouched_m = 0.10;  // thickness of what was felt
 constexpr double kTouched_rad = 1.05;
 constexpr double kTouchedStep_rad = 0.1;
 constexpr std::size_t kBinsMax = 1000;
+constexpr std::size_t kEdgeBins = 3;     // at the view's edges, where pixels come and go
 constexpr double kBearingMax_rad = 1.5;  // farther to the side no camera that looks ahead sees
 
 std::int32_t cell_index(double p_m) {
@@ -85,33 +86,47 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
   const std::size_t bins = view.free_range_m.size();
   for (std::size_t bin = 0; bin < bins; ++bin) {
     if (view.unknown_ratio[bin] < 1.0) was_in_view_[bin] = true;
-    if (was_in_view_[bin]) open(now, ray_of(bin));
+  }
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    const Ray ray = ray_of(bin);
+    if (ray.sees_floor()) open(now, ray);
+    if (!ray.sees_floor() && is_well_in_view(bin)) doubt(now, ray);
   }
   // Afterwards, so that no neighbour opens what this one saw to end.
   for (std::size_t bin = 0; bin < bins; ++bin) {
-    if (was_in_view_[bin]) close_end(now, ray_of(bin));
+    const Ray ray = ray_of(bin);
+    if (ray.sees_floor()) close_end(now, ray);
   }
   return true;
 }
 
+bool ObstacleMemory::is_well_in_view(std::size_t bin) const {
+  if (bin < kEdgeBins || bin + kEdgeBins >= kBinsMax) return false;
+  const auto first = was_in_view_.begin() + static_cast<std::ptrdiff_t>(bin - kEdgeBins);
+  return std::all_of(first, first + 2 * kEdgeBins + 1, [](bool was) { return was; });
+}
+
 void ObstacleMemory::open(const Instant& now, const Ray& ray) {
-  const double start_m = ray.sees_floor() ? 0.0 : ray.doubtful_from_m();
-  const double end_m = ray.sees_floor() ? ray.free_m : ray.doubtful_to_m();
-  for (double range_m = start_m; range_m < end_m; range_m += kStep_m) {
+  for (double range_m = 0.0; range_m < ray.free_m; range_m += kStep_m) {
     const Eigen::Vector2d p_odom_m = ray.at(range_m);
-    const Ground before = at(now, p_odom_m).ground;
-    if (!ray.sees_floor()) {
-      if (before != Ground::kClosed) set(now, p_odom_m, Ground::kUnknown, Reason::kUnknown);
-    } else if (range_m >= ray.seen_from_m) {
+    if (range_m >= ray.seen_from_m) {
       set(now, p_odom_m, Ground::kFree, Reason::kAsAsked);
-    } else if (before == Ground::kUnknown) {
+    } else if (at(now, p_odom_m).ground == Ground::kUnknown) {
       set(now, p_odom_m, Ground::kOverlooked, Reason::kAsAsked);
     }
   }
 }
 
+void ObstacleMemory::doubt(const Instant& now, const Ray& ray) {
+  for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
+    const Eigen::Vector2d p_odom_m = ray.at(range_m);
+    if (at(now, p_odom_m).ground == Ground::kClosed) continue;
+    set(now, p_odom_m, Ground::kUnknown, Reason::kUnknown);
+  }
+}
+
 void ObstacleMemory::close_end(const Instant& now, const Ray& ray) {
-  if (!ray.sees_floor() || ray.free_m >= kReach_m) return;
+  if (ray.free_m >= kReach_m) return;
   set(now, ray.at(ray.free_m), Ground::kClosed, ray.end);
   set(now, ray.at(ray.free_m + kCell_m), Ground::kClosed, ray.end);
 }

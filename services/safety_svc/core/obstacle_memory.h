@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -41,7 +42,8 @@ struct FreeView {
 ///   - nearer than s, where nothing is known, is overlooked: rays pass above it;
 ///   - f < s: the floor came not into view. If the pixels have readings, what stands there is no
 ///     nearer than a Kinect measures and no farther than s: that is unknown again. If most have
-///     none, anything may stand anywhere: all of it is unknown again.
+///     none, anything may stand anywhere: all of it is unknown again. (But for three bearings at
+///     either edge of what was ever in view: there pixels come and go.)
 /// Only seeing the floor opens what was closed. Free fades to overlooked, that and closed to
 /// unknown.
 ///
@@ -80,8 +82,10 @@ class ObstacleMemory {
   struct Ray;
 
   void open(const Instant& now, const Ray& ray);
+  void doubt(const Instant& now, const Ray& ray);
   void close_end(const Instant& now, const Ray& ray);
   void set(const Instant& now, const Eigen::Vector2d& p_odom_m, Ground ground, Reason why);
+  bool is_well_in_view(std::size_t bin) const;
   Cell& cell_of(std::int32_t column, std::int32_t row);
   const Cell& cell_of(std::int32_t column, std::int32_t row) const;
 
