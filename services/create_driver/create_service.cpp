@@ -12,19 +12,41 @@ namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds(5);
 
-create::VelocityCommand command_of(const velocity_command_t& message) {
+create::Proof proof_of(Signature signature) {
+  if (signature == Signature::kMissing) return create::Proof::kMissing;
+  return signature == Signature::kGenuine ? create::Proof::kGenuine : create::Proof::kForged;
+}
+
+create::VelocityCommand command_of(const velocity_command_t& message, Signature signature) {
   return {.speed_mps = message.allowed_speed_mps,
           .turn_rate_radps = message.allowed_turn_rate_radps,
           .decided = time_from_utime(message.utime),
           .expiry = time_from_utime(message.expiry_utime),
           .session = message.session,
-          .sequence = message.sequence};
+          .sequence = message.sequence,
+          .proof = proof_of(signature)};
+}
+
+void fill_refusals(const create::DriverCounts& counts, create_state_t& state) {
+  using create::DriverEvent;
+  state.refused_unsigned = counts[DriverEvent::kCommandUnsigned];
+  state.refused_forged = counts[DriverEvent::kCommandForged];
+  state.refused_expired = counts[DriverEvent::kCommandExpired];
+  state.refused_from_future = counts[DriverEvent::kCommandFromFuture];
+  state.refused_out_of_order = counts[DriverEvent::kCommandOutOfOrder];
+  state.refused_other_session = counts[DriverEvent::kCommandOtherSession];
+  state.refused_malformed =
+      counts[DriverEvent::kCommandNotFinite] + counts[DriverEvent::kCommandAbsurd];
 }
 
 }  // namespace
 
 CreateService::CreateService(Bus& bus, const Params& params)
-    : bus_(bus), model_(create::model_of(params)), driver_(params), link_(params) {
+    : bus_(bus),
+      model_(create::model_of(params)),
+      driver_(params),
+      link_(params),
+      key_(params.key_path) {
   if (bus.is_replay()) {
     throw std::runtime_error("has nothing to replay: what it publishes comes from a robot's port");
   }
@@ -38,7 +60,8 @@ create::Instant CreateService::now() const {
 }
 
 void CreateService::on_command(const velocity_command_t& message) {
-  driver_.command(now(), command_of(message));
+  driver_.command(now(), command_of(message, key_.check(message)));
+  say_key();
   say_counts();
 }
 
@@ -71,6 +94,7 @@ void CreateService::publish(const create::FrameReport& report) {
   state.commanded_right_mps = report.commanded.right_mps;
   state.mode_drops = report.mode_drops;
   state.robot_restarts = report.robot_restarts;
+  fill_refusals(driver_.counts(), state);
   bus_.publish(channels::kCreateState, state);
   if (!report.odometry) return;
   odometry_t odometry = create::to_message(*report.odometry);
@@ -85,6 +109,14 @@ void CreateService::say_counts() {
     bus_.count(create::name_of(event), more);
     said_.add(event, more);
   }
+}
+
+void CreateService::say_key() {
+  if (key_.error() == said_key_) return;
+  said_key_ = key_.error();
+  if (said_key_.empty()) return;
+  bus_.note_error(said_key_);
+  spdlog::warn("create_driver: {}", said_key_);
 }
 
 void CreateService::say_error() {

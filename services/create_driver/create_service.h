@@ -4,10 +4,12 @@
 #include "common/bus/bus.h"
 #include "services/create_driver/core/create_driver.h"
 #include "services/create_driver/device/robot_link.h"
+#include "services/create_driver/key_watch.h"
 
 namespace roomwise {
 
-/// VEL_CMD in; CREATE_STATE with every frame of the robot and ODOMETRY with every step out.
+/// VEL_CMD in, obeyed only if safety_svc's key signed it; CREATE_STATE with every frame of the
+/// robot and ODOMETRY with every step out.
 ///
 /// Reads and writes the port in a tick of 5 ms on the bus's one thread: no lock, one order of
 /// events, and a service that hangs anywhere also stops beating to its guardian.
@@ -24,6 +26,7 @@ class CreateService {
   bool is_connected(const create::Instant& now);
   void publish(const create::FrameReport& report);
   void say_counts();
+  void say_key();
   void say_error();
   create::Instant now() const;
 
@@ -31,8 +34,10 @@ class CreateService {
   create::Model model_;
   create::CreateDriver driver_;
   create::RobotLink link_;
+  KeyWatch key_;
   create::DriverCounts said_;
   std::string said_error_;
+  std::string said_key_;
   bool has_said_firmware_ = false;
 };
 

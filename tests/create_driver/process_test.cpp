@@ -4,6 +4,7 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <lcm/lcm-cpp.hpp>
 #include <optional>
 #include <thread>
 
@@ -42,8 +43,9 @@ std::int64_t wall_utime() {
 /// Publishes VEL_CMD at 50 Hz as safety_svc does, until it goes.
 class CommandSource {
  public:
-  CommandSource(double speed_mps, double turn_rate_radps)
-      : thread_([this, speed_mps, turn_rate_radps] { run(speed_mps, turn_rate_radps); }) {}
+  CommandSource(const SecretKey& key, double speed_mps, double turn_rate_radps)
+      : key_(key),
+        thread_([this, speed_mps, turn_rate_radps] { run(speed_mps, turn_rate_radps); }) {}
   ~CommandSource() { stop(); }
   void stop() {
     is_over_ = true;
@@ -56,11 +58,13 @@ class CommandSource {
     const std::int64_t session = wall_utime();
     std::int64_t sequence = 0;
     while (!is_over_) {
-      auto command = drive_command(wall_utime(), session, ++sequence, speed_mps, turn_rate_radps);
+      auto command =
+          drive_command(key_, wall_utime(), session, ++sequence, speed_mps, turn_rate_radps);
       bus.publish(channels::kVelCmd, command);
       std::this_thread::sleep_for(milliseconds(20));
     }
   }
+  SecretKey key_;
   std::atomic<bool> is_over_{false};
   std::thread thread_;
 };
@@ -70,7 +74,9 @@ class CreateDriverProcess : public ::testing::Test {
   static void SetUpTestSuite() { enter_private_network(); }
 
   void SetUp() override {
-    std::ofstream(folder_.path() / "params.toml") << "port = \"" << port().string() << "\"\n";
+    std::ofstream(folder_.path() / "params.toml")
+        << "port = \"" << port().string() << "\"\n"
+        << "key_path = \"" << (folder_.path() / "key").string() << "\"\n";
     robot_.emplace(port());
     start_driver();
   }
@@ -93,12 +99,13 @@ class CreateDriverProcess : public ::testing::Test {
   }
 
   ScratchFolder folder_;
+  SecretKey key_ = make_key_file(folder_.path() / "key");
   std::optional<ScriptedRobot> robot_;
   std::unique_ptr<ChildProcess> driver_;
 };
 
 TEST_F(CreateDriverProcess, DrivesAsCommandedAndStopsWhenCommandsEnd) {
-  CommandSource source(0.2, 0.5);
+  CommandSource source(key_, 0.2, 0.5);
   ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
   EXPECT_EQ(robot_->mode(), OiMode::kSafe);
   EXPECT_EQ(robot_->wheels(), (ScriptedRobot::Wheels{141, 259}));  // 0.2 -+ 0.5 * 0.235 / 2
@@ -110,7 +117,7 @@ TEST_F(CreateDriverProcess, DrivesAsCommandedAndStopsWhenCommandsEnd) {
 }
 
 TEST_F(CreateDriverProcess, PublishesStateAndOdometry) {
-  const CommandSource source(0.2, 0.0);
+  const CommandSource source(key_, 0.2, 0.0);
   LcmBus bus(kTestUrl);
   create_state_t state{};
   odometry_t odometry{};
@@ -135,7 +142,7 @@ TEST_F(CreateDriverProcess, PublishesStateAndOdometry) {
 }
 
 TEST_F(CreateDriverProcess, KilledDriverLeavesAStoppedRobotInPassive) {
-  const CommandSource source(0.3, 0.0);
+  const CommandSource source(key_, 0.3, 0.0);
   ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
   const auto killed = Clock::now();
   driver_->send_signal(SIGKILL);
@@ -146,7 +153,7 @@ TEST_F(CreateDriverProcess, KilledDriverLeavesAStoppedRobotInPassive) {
 }
 
 TEST_F(CreateDriverProcess, AKilledDriverStartedAgainDrivesAgain) {
-  const CommandSource source(0.3, 0.0);
+  const CommandSource source(key_, 0.3, 0.0);
   ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
   driver_->send_signal(SIGKILL);
   driver_->wait();
@@ -156,7 +163,7 @@ TEST_F(CreateDriverProcess, AKilledDriverStartedAgainDrivesAgain) {
 }
 
 TEST_F(CreateDriverProcess, FrozenDriverIsStoppedAndGoesThroughStartUpWhenThawed) {
-  const CommandSource source(0.3, 0.0);
+  const CommandSource source(key_, 0.3, 0.0);
   ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
   const auto frozen = Clock::now();
   driver_->send_signal(SIGSTOP);
@@ -180,7 +187,7 @@ TEST_F(CreateDriverProcess, FrozenDriverIsStoppedAndGoesThroughStartUpWhenThawed
 
 TEST_F(CreateDriverProcess, EverySignalToEndLeavesAStoppedRobotInPassive) {
   for (const int signal : {SIGTERM, SIGINT}) {
-    const CommandSource source(-0.1, 0.4);
+    const CommandSource source(key_, -0.1, 0.4);
     ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
     driver_->send_signal(signal);
     EXPECT_EQ(driver_->wait(), 0) << driver_->output();
@@ -191,7 +198,7 @@ TEST_F(CreateDriverProcess, EverySignalToEndLeavesAStoppedRobotInPassive) {
 }
 
 TEST_F(CreateDriverProcess, RobotUnpluggedAndPluggedInAgainIsTakenUp) {
-  const CommandSource source(0.2, 0.0);
+  const CommandSource source(key_, 0.2, 0.0);
   ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
   robot_.reset();
   std::this_thread::sleep_for(milliseconds(300));
@@ -201,7 +208,7 @@ TEST_F(CreateDriverProcess, RobotUnpluggedAndPluggedInAgainIsTakenUp) {
 }
 
 TEST_F(CreateDriverProcess, AfterATripItGoesBackToItsMode) {
-  const CommandSource source(0.2, 0.0);
+  const CommandSource source(key_, 0.2, 0.0);
   ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
   robot_->trip();
   EXPECT_FALSE(drives());
@@ -210,7 +217,7 @@ TEST_F(CreateDriverProcess, AfterATripItGoesBackToItsMode) {
 }
 
 TEST_F(CreateDriverProcess, ASecondDriverDoesNotGetThePort) {
-  const CommandSource source(0.2, 0.0);
+  const CommandSource source(key_, 0.2, 0.0);
   ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
   ChildProcess second({program("create_driver"), "--url", kTestUrl, "--params",
                        (folder_.path() / "params.toml").string()},
@@ -219,6 +226,77 @@ TEST_F(CreateDriverProcess, ASecondDriverDoesNotGetThePort) {
     return second.output().find("in use by another process") != std::string::npos;
   })) << second.output();
   EXPECT_TRUE(drives());
+}
+
+TEST_F(CreateDriverProcess, StrangersMoveNothingAndAreCounted) {
+  LcmBus bus(kTestUrl);
+  create_state_t state{};
+  bus.subscribe(channels::kCreateState, [&](const create_state_t& message) {
+    state = message;
+    if (message.refused_unsigned > 20 && message.refused_forged > 20) bus.stop();
+  });
+  SecretKey other_key = key_;
+  other_key[0] ^= 1;
+  std::int64_t sequence = 0;
+  const auto give_up = Clock::now() + std::chrono::seconds(20);
+  bus.every(milliseconds(10), [&](Time) {
+    const bool is_forged = ++sequence % 2 == 0;
+    auto command = drive_command(is_forged ? other_key : key_, wall_utime(), 9, sequence, 0.2, 0.0);
+    if (!is_forged) command.signature.clear();
+    command.signature_size = static_cast<std::int32_t>(command.signature.size());
+    bus.publish(channels::kVelCmd, command);
+    if (Clock::now() > give_up) bus.stop();
+  });
+  bus.run();
+  EXPECT_GT(state.refused_unsigned, 20);
+  EXPECT_GT(state.refused_forged, 20);
+  EXPECT_EQ(state.driver_state, create_state_t::DRIVER_SILENT);
+  EXPECT_FALSE(drives());
+}
+
+TEST_F(CreateDriverProcess, ASafetyServiceThatStartsAgainIsTakenUpWithItsNewKey) {
+  {
+    const CommandSource source(key_, 0.2, 0.0);
+    ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
+  }
+  ASSERT_TRUE(wait_until([&] { return !drives(); }));
+  const SecretKey old_key = key_;
+  key_ = make_key_file(folder_.path() / "key");
+  const CommandSource source(key_, 0.2, 0.0);
+  ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
+  const CommandSource stale(old_key, 0.2, 1.0);
+  std::this_thread::sleep_for(milliseconds(200));
+  EXPECT_EQ(robot_->wheels(), (ScriptedRobot::Wheels{200, 200}));
+}
+
+TEST_F(CreateDriverProcess, ALogPlayedBesideTheRobotMovesNothing) {
+  const std::string log = folder_.path() / "drive.lcmlog";
+  {
+    lcm::LogFile file(log, "w");
+    std::vector<std::uint8_t> bytes;
+    LcmBus bus(kTestUrl);
+    bus.subscribe(channels::kVelCmd, [&](const velocity_command_t& command) {
+      encode(command, bytes);
+      lcm::LogEvent event{};
+      event.timestamp = command.utime;
+      event.channel = std::string(channels::kVelCmd.name);
+      event.datalen = static_cast<std::int32_t>(bytes.size());
+      event.data = bytes.data();
+      file.writeEvent(&event);
+    });
+    const CommandSource source(key_, 0.2, 0.0);
+    ASSERT_TRUE(wait_until([&] { return drives(); })) << driver_->output();
+    bus.every(milliseconds(1000), [&](Time) { bus.stop(); });
+    bus.run();
+  }
+  ASSERT_TRUE(wait_until([&] { return !drives(); }));
+  const auto stopped = robot_->stopped_at();
+  std::string said;
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(run_to_end({"lcm-logplayer", "--lcm-url", kTestUrl, log}, said), 0) << said;
+  }
+  EXPECT_EQ(robot_->stopped_at(), stopped);
+  EXPECT_FALSE(drives());
 }
 
 TEST_F(CreateDriverProcess, ReplayIsRefusedInOneLine) {

@@ -30,7 +30,7 @@ void HardwareChain::start(Part part) {
                  "--kinect_door",      door()};
       break;
     case kCreateDriver:
-      command = {program("create_driver"), "--port", port};
+      command = {program("create_driver"), "--port", port, "--key_path", folder_.path() / "key"};
       break;
     case kKinectPub:
       command = {program("kinect_pub")};
@@ -88,7 +88,7 @@ std::string HardwareChain::output() const {
 }
 
 void HardwareChain::command(LcmBus& bus) {
-  auto command = drive_command(utime_of(bus.now()), 1, ++sequence_, 0.1, 0.5);
+  auto command = drive_command(key_, utime_of(bus.now()), 1, ++sequence_, 0.1, 0.5);
   bus.publish(channels::kVelCmd, command);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/auth/secret_key.h"
 #include "common/bus/lcm_bus.h"
 #include "common/channels.h"
 #include "tests/support/child_process.h"
@@ -47,6 +48,7 @@ class HardwareChain {
   void command(LcmBus& bus);
 
   ScratchFolder folder_;
+  SecretKey key_ = make_key_file(folder_.path() / "key");
   std::string scenario_;
   std::vector<std::string> kinect_options_;
   std::int64_t sequence_ = 0;

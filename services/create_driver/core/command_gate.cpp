@@ -11,6 +11,8 @@ constexpr double kAbsurdTurnRate_radps = 100.0;
 }  // namespace
 
 std::optional<DriverEvent> refusal_of(const VelocityCommand& command, Time now) {
+  if (command.proof == Proof::kMissing) return DriverEvent::kCommandUnsigned;
+  if (command.proof == Proof::kForged) return DriverEvent::kCommandForged;
   if (!std::isfinite(command.speed_mps) || !std::isfinite(command.turn_rate_radps)) {
     return DriverEvent::kCommandNotFinite;
   }

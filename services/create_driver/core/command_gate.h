@@ -7,6 +7,9 @@
 
 namespace roomwise::create {
 
+/// What the signature says of who sent a command.
+enum class Proof : std::uint8_t { kMissing, kForged, kGenuine };
+
 /// What VEL_CMD asks for, and who asks.
 struct VelocityCommand {
   double speed_mps = 0.0;
@@ -15,6 +18,7 @@ struct VelocityCommand {
   Time expiry{};
   std::int64_t session = 0;
   std::int64_t sequence = 0;
+  Proof proof = Proof::kMissing;
 };
 
 /// A command is obeyed this long, then the wheels stop.
@@ -22,8 +26,8 @@ inline constexpr Duration kCommandLife = std::chrono::milliseconds(200);
 /// Clocks of one machine agree; handling takes time, not the other way round.
 inline constexpr Duration kFutureSlack = std::chrono::milliseconds(50);
 
-/// Why a command taken by itself must not be obeyed at `now`; nothing if it may. A signature, once
-/// commands carry one, is to be checked here.
+/// Why a command taken by itself must not be obeyed at `now`; nothing if it may. Who
+/// sent it comes first: what a stranger says is not looked at.
 std::optional<DriverEvent> refusal_of(const VelocityCommand& command, Time now);
 
 /// Holds the one command that is in force. Denies by default: before the first command, after

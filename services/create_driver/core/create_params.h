@@ -17,6 +17,7 @@ struct CreateParams {
   /// "full" switches the robot's own cut-outs for cliffs and lifted wheels off.
   std::string mode = "safe";
   double speed_max_mps = 0.5;  ///< of either wheel; both are scaled so that the curvature stays
+  std::string key_path;  ///< of what safety_svc signs with; empty: drive.key in /tmp/roomwise-UID
   std::string angle_rounding = "truncate";  ///< Create 1: what it does with parts of a degree
   WheelGeometry wheels;                     ///< scripts/calibrate measures the first four
 
@@ -28,6 +29,7 @@ struct CreateParams {
     field("wake_line", wake_line, {"none", "rts", "dtr"});
     field("mode", mode, {"safe", "full"});
     field("speed_max_mps", speed_max_mps, 0.01, 0.5);
+    field("key_path", key_path);
     field("angle_rounding", angle_rounding, {"truncate", "carry"});
     field("wheel_base_m", wheels.wheel_base_m, 0.1, 0.5);
     field("wheel_diameter_m", wheels.wheel_diameter_m, 0.03, 0.2);

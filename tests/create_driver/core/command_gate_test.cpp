@@ -21,7 +21,8 @@ VelocityCommand command_at(const Instant& now, std::int64_t sequence, std::int64
           .decided = now.wall,
           .expiry = now.wall + milliseconds(200),
           .session = session,
-          .sequence = sequence};
+          .sequence = sequence,
+          .proof = Proof::kGenuine};
 }
 
 TEST(CommandGate, NothingIsInForceBeforeTheFirstCommand) {
@@ -50,6 +51,21 @@ TEST(CommandGate, AClockSetBackDoesNotProlongACommand) {
   CommandGate gate;
   ASSERT_EQ(gate.offer(after(Duration(0)), command_at(after(Duration(0)), 1)), std::nullopt);
   EXPECT_FALSE(gate.in_force({kSteady + milliseconds(200), kWall - hours(1)}));
+}
+
+TEST(CommandGate, RefusesWhatIsNotSignedBeforeItLooksAtAnything) {
+  const Instant now = after(Duration(0));
+  for (const auto& [proof, why] : {std::pair(Proof::kMissing, DriverEvent::kCommandUnsigned),
+                                   std::pair(Proof::kForged, DriverEvent::kCommandForged)}) {
+    CommandGate gate;
+    VelocityCommand command = command_at(now, 1);
+    command.proof = proof;
+    EXPECT_EQ(gate.offer(now, command), why);
+    command.decided = kWall - hours(1);
+    EXPECT_EQ(gate.offer(now, command), why);
+    EXPECT_FALSE(gate.in_force(now));
+    EXPECT_EQ(gate.offer(now, command_at(now, 1)), std::nullopt) << "its session was taken up";
+  }
 }
 
 TEST(CommandGate, RefusesWhatIsNotFiniteOrAbsurd) {

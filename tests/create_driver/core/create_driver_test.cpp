@@ -41,7 +41,8 @@ class Ride {
                          .decided = now.wall,
                          .expiry = now.wall + milliseconds(200),
                          .session = 1,
-                         .sequence = ++sequence});
+                         .sequence = ++sequence,
+                         .proof = Proof::kGenuine});
   }
   bool is_driving() const { return left_mmps != 0 || right_mmps != 0; }
 

@@ -18,8 +18,8 @@ constexpr std::int64_t kLastPart_us = 500'000;
 /// Asks create_driver for one motion and keeps all that is said meanwhile.
 class Listener {
  public:
-  Listener(const DriveSetup& setup, SimulatedDrive& drive)
-      : setup_(setup), drive_(drive), bus_(setup.url) {
+  Listener(const DriveSetup& setup, const SecretKey& key, SimulatedDrive& drive)
+      : setup_(setup), key_(key), drive_(drive), bus_(setup.url) {
     keep(channels::kCreateState, drive.states);
     keep(channels::kOdometry, drive.odometry);
     keep(channels::kTruth, drive.truth);
@@ -46,7 +46,7 @@ class Listener {
   }
 
   void command() {
-    auto command = drive_command(utime_of(bus_.now()), 1, ++sequence_, setup_.speed_mps,
+    auto command = drive_command(key_, utime_of(bus_.now()), 1, ++sequence_, setup_.speed_mps,
                                  setup_.turn_rate_radps);
     bus_.publish(channels::kVelCmd, command);
     if (command.utime > end_ && (drive_.ends_driving() || patience_is_over(command.utime))) {
@@ -59,6 +59,7 @@ class Listener {
   }
 
   const DriveSetup& setup_;
+  SecretKey key_;
   SimulatedDrive& drive_;
   LcmBus bus_;
   std::int64_t sequence_ = 0;
@@ -103,8 +104,11 @@ double SimulatedDrive::ends_moving_m() const {
 SimulatedDrive drive_in_simulator(const DriveSetup& setup) {
   const ScratchFolder folder;
   const std::string port = folder.path() / "create";
+  const std::string key_path = folder.path() / "key";
+  const SecretKey key = make_key_file(key_path);
   const std::string params = folder.path() / "params.toml";
-  std::ofstream(params) << "port = \"" << port << "\"\n" << setup.driver_params;
+  std::ofstream(params) << "port = \"" << port << "\"\nkey_path = \"" << key_path << "\"\n"
+                        << setup.driver_params;
   SimulatedDrive drive;
   ChildProcess simulator(
       std::vector<std::string>{program("simulator"), "--url", setup.url, "--scenario", "empty",
@@ -113,7 +117,7 @@ SimulatedDrive drive_in_simulator(const DriveSetup& setup) {
       folder.path() / "simulator-output");
   ChildProcess driver({program("create_driver"), "--url", setup.url, "--params", params},
                       folder.path() / "driver-output");
-  Listener(setup, drive).listen();
+  Listener(setup, key, drive).listen();
   driver.send_signal(SIGTERM);
   driver.wait();
   drive.output = driver.output() + simulator.output();

@@ -1,0 +1,96 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/geometry/pose2.h"
+#include "services/safety_svc/core/instant.h"
+#include "services/safety_svc/core/reason.h"
+
+namespace roomwise::safety {
+
+/// What a place is known to be.
+enum class Ground : std::uint8_t {
+  kUnknown,     ///< never seen, or too long ago
+  kOverlooked,  ///< floor was seen behind it; something low may stand there
+  kFree,        ///< floor was seen there
+  kClosed,      ///< not to be entered
+};
+
+/// A place as it is remembered.
+struct Place {
+  Ground ground = Ground::kUnknown;
+  Reason why = Reason::kUnknown;  ///< of a closed or unknown one
+};
+
+/// How far the way is free along some bearings, seen from the robot frame's origin.
+struct FreeView {
+  double first_bearing_rad = 0.0;
+  double bearing_step_rad = 0.0;
+  std::span<const double> free_range_m;
+  std::span<const double> unknown_ratio;  ///< as many
+  double floor_seen_from_m = 0.0;         ///< straight ahead; nearer is the blind zone
+  bool has_drop_off = false;              ///< some of what ends the view is an edge to fall off
+};
+
+/// What the floor round the robot is like, in cells of 5 cm of the odom frame: what was seen free,
+/// and what was seen to end there, kept while the robot drives and the camera no longer sees it.
+///
+/// Along each bearing with free range f, in view from s on:
+///   - s .. f is free, f and the cell behind it closed, what lies farther as it was;
+///   - nearer than s, where nothing is known, is overlooked: rays pass above it;
+///   - f < s: the floor came not into view. If the pixels have readings, what stands there is no
+///     nearer than a Kinect measures and no farther than s: that is unknown again. If most have
+///     none, anything may stand anywhere: all of it is unknown again. (But for three bearings at
+///     either edge of what was ever in view: there pixels come and go.)
+/// Only seeing the floor opens what was closed. Free fades to overlooked, that and closed to
+/// unknown.
+///
+/// Cells are a torus of fixed size: what is 6.4 m apart shares one, and the newer place wins.
+class ObstacleMemory {
+ public:
+  static constexpr double kCell_m = 0.05;
+  static constexpr double kReach_m = 2.5;  ///< bearings are written no farther
+
+  ObstacleMemory();
+
+  /// Forgets everything: a new odom frame.
+  void forget();
+
+  /// Takes up what was seen from `T_odom_robot`. False, and nothing changed, if its numbers are no
+  /// view: counts that differ, none or more than 1000, or anything not finite.
+  [[nodiscard]] bool see(const Instant& now, const Pose2& T_odom_robot, const FreeView& view);
+
+  /// Whatever is unknown within `radius_m` counts as overlooked: somebody put the robot there.
+  void overlook_round(const Instant& now, const Pose2& T_odom_robot, double radius_m);
+
+  /// Something was felt at the robot's front, over 60 degrees to either side.
+  void touch(const Instant& now, const Pose2& T_odom_robot, double radius_m, Reason why);
+
+  /// What is at a point of the odom frame.
+  Place at(const Instant& now, const Eigen::Vector2d& p_odom_m) const;
+
+ private:
+  struct Cell {
+    std::int32_t column = 0;
+    std::int32_t row = 0;
+    Ground ground = Ground::kUnknown;
+    Reason why = Reason::kUnknown;
+    Duration seen{};
+  };
+  struct Ray;
+
+  void open(const Instant& now, const Ray& ray);
+  void doubt(const Instant& now, const Ray& ray);
+  void close_end(const Instant& now, const Ray& ray);
+  void set(const Instant& now, const Eigen::Vector2d& p_odom_m, Ground ground, Reason why);
+  bool is_well_in_view(std::size_t bin) const;
+  Cell& cell_of(std::int32_t column, std::int32_t row);
+  const Cell& cell_of(std::int32_t column, std::int32_t row) const;
+
+  std::vector<Cell> cells_;
+  std::vector<bool> was_in_view_;  // by bearing bin: had it pixels with readings, ever
+};
+
+}  // namespace roomwise::safety

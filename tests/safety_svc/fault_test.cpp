@@ -1,0 +1,226 @@
+// What goes wrong while the robot drives at 0.3 m/s: the real services stop it, and say why. Every
+// drive has a bus of its own; some go on side by side.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <future>
+#include <map>
+#include <optional>
+#include <semaphore>
+#include <thread>
+
+#include "common/auth/command_signature.h"
+#include "tests/safety_svc/support/safety_chain.h"
+#include "tests/support/private_network.h"
+
+namespace roomwise {
+namespace {
+
+using Part = SafetyChain::Part;
+using Command = velocity_command_t;
+
+constexpr std::int64_t kSettled_us = 150'000;  // TRUTH says the same for so long: it stands
+
+/// What a fault did: from the instant of the fault on.
+struct Outcome {
+  bool has_driven = false;
+  std::optional<double> stop_s;  ///< the wheels stood after this long; nothing: they went on
+  double way_m = 0.0;
+  double fastest_mps = 0.0;  ///< after the fault
+  std::string reason;        ///< on SAFETY_STATE; what create_driver says if there is none
+  create_state_t last_state{};
+  std::string output;
+};
+
+struct Fault {
+  std::string name;
+  std::function<void(SafetyChain&)> strike;
+  std::string reason;          ///< a part of it
+  bool goes_on = false;        ///< the robot is to drive on undisturbed
+  std::string simulated = {};  ///< or a fault of the simulated robot, 9 s after its start
+};
+
+std::function<void(SafetyChain&)> signal_to(Part part, int signal) {
+  return [part, signal](SafetyChain& chain) { chain.send_signal(part, signal); };
+}
+
+/// Publishes commands of its own at 100 Hz, as `change` makes them of the newest genuine one.
+std::function<void(SafetyChain&)> publisher(std::function<void(Command&)> change) {
+  return [change](SafetyChain& chain) {
+    chain.also = [&chain, change](LcmBus& bus) {
+      if (chain.commands.empty()) return;
+      Command command = chain.commands.back();
+      change(command);
+      command.signature_size = static_cast<std::int32_t>(command.signature.size());
+      bus.publish(channels::kVelCmd, command);
+    };
+  };
+}
+
+void turn_hard(Command& command) {
+  command.allowed_speed_mps = 0.5;
+  command.allowed_turn_rate_radps = 2.0;
+  command.sequence += 1'000'000;
+}
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all = {
+      {"NobodyAsksAnyMore", [](SafetyChain& chain) { chain.asks = false; }, "nobody asks"},
+      {"SafetySvcKilled", signal_to(Part::kSafetySvc, SIGKILL), "commands silent"},
+      {"SafetySvcFrozen", signal_to(Part::kSafetySvc, SIGSTOP), "commands silent"},
+      {"SegmentSvcKilled", signal_to(Part::kSegmentSvc, SIGKILL), "no camera"},
+      {"SegmentSvcFrozen", signal_to(Part::kSegmentSvc, SIGSTOP), "no camera"},
+      {"KinectPubKilled", signal_to(Part::kKinectPub, SIGKILL), "no camera"},
+      {"KinectPubFrozen", signal_to(Part::kKinectPub, SIGSTOP), "no camera"},
+      {"CreateDriverKilled", signal_to(Part::kCreateDriver, SIGKILL), "nothing heard"},
+      {"CreateDriverFrozen", signal_to(Part::kCreateDriver, SIGSTOP), "nothing heard"},
+      {"EmergencyStop",
+       [](SafetyChain& chain) {
+         chain.also = [](LcmBus& bus) {
+           estop_t press{};
+           press.utime = utime_of(bus.now());
+           press.source = "test";
+           bus.publish(channels::kEstop, press);
+         };
+       },
+       "emergency stop"},
+      {"SecondPublisherUnsigned", publisher([](Command& command) {
+         turn_hard(command);
+         command.signature.clear();
+       }),
+       "", true},
+      {"SecondPublisherForged", publisher(turn_hard), "", true},
+      {"SecondPublisherRepeats", publisher([](Command&) {}), "", true},
+      {"SerialSilence", {}, "nothing heard", false, "silence,for_s=3"},
+      {"SerialGarbage", {}, "nothing heard", false, "byte_flip,count=200"},
+      {"Bump", {}, "bumper", false, "bump,side=left,for_s=3"},
+      {"WheelDrop", {}, "wheel hangs", false, "wheel_drop,side=left,for_s=3"},
+      {"Cliff", {}, "cliff", false, "cliff,for_s=3"},
+  };
+  return all;
+}
+
+/// When the simulated fault began to show: the last moment the robot's stream was as before.
+std::int64_t simulated_strike(const SafetyChain& chain, std::size_t from) {
+  const auto shows = [](const create_state_t& s) {
+    return s.bump_left != 0 || s.drop_left != 0 || s.cliff_left != 0 || s.cliff_front_left != 0 ||
+           s.cliff_front_right != 0 || s.cliff_right != 0;
+  };
+  for (std::size_t i = from + 1; i < chain.states.size(); ++i) {
+    const bool is_gap = chain.states[i].utime - chain.states[i - 1].utime > 100'000;
+    if (is_gap || shows(chain.states[i])) return chain.states[i - 1].utime;
+  }
+  return chain.states.back().utime;
+}
+
+Outcome judge(const SafetyChain& chain, std::int64_t strike_utime) {
+  Outcome outcome;
+  const truth_t* before = nullptr;
+  const truth_t* moved = nullptr;
+  for (std::size_t i = 1; i < chain.truth.size(); ++i) {
+    const truth_t& a = chain.truth[i - 1];
+    const truth_t& b = chain.truth[i];
+    if (b.utime < strike_utime) continue;
+    if (before == nullptr) before = &a;
+    const double step_m = std::hypot(b.true_x_m - a.true_x_m, b.true_y_m - a.true_y_m);
+    const double dt_s = 1e-6 * static_cast<double>(std::max<std::int64_t>(b.utime - a.utime, 1000));
+    outcome.fastest_mps = std::max(outcome.fastest_mps, step_m / dt_s);
+    if (step_m / dt_s > 0.01) moved = &b;
+  }
+  if (before == nullptr) return outcome;
+  if (moved == nullptr) moved = before;
+  outcome.way_m =
+      std::hypot(moved->true_x_m - before->true_x_m, moved->true_y_m - before->true_y_m);
+  if (chain.truth.back().utime - moved->utime > kSettled_us) {
+    outcome.stop_s = 1e-6 * static_cast<double>(moved->utime - strike_utime);
+  }
+  return outcome;
+}
+
+std::string reason_after(const SafetyChain& chain, std::int64_t strike_utime) {
+  for (const safety_state_t& state : chain.safety_states) {
+    if (state.utime > strike_utime && state.state >= safety_state_t::STATE_STOP) {
+      return state.reason_text;
+    }
+  }
+  const bool is_silent =
+      !chain.states.empty() && chain.states.back().driver_state == create_state_t::DRIVER_SILENT;
+  return is_silent ? "create_driver: commands silent" : "";
+}
+
+/// How many drives go on at once: more, and two cores do not give each its time.
+std::counting_semaphore<>& free_places() {
+  static std::counting_semaphore<> places(4);
+  return places;
+}
+
+Outcome drive_into(const Fault& fault, int port) {
+  free_places().acquire();
+  ChainSetup setup;
+  setup.url = "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0";
+  // The faults are the matter here, not the blind zone: the floor counts as seen from near by.
+  setup.safety = {"--floor_seen_from_m", "0.2"};
+  if (!fault.simulated.empty()) setup.simulator = {"--fault", "at_s=9,kind=" + fault.simulated};
+  SafetyChain chain(setup);
+  const bool has_driven = chain.listen_until([&] { return chain.true_speed_mps() > 0.29; }, 20.0);
+  chain.listen_for(0.3);
+  const std::size_t from = chain.states.empty() ? 0 : chain.states.size() - 1;
+  std::int64_t strike_utime = chain.truth.empty() ? 0 : chain.truth.back().utime;
+  if (fault.simulated.empty()) {
+    fault.strike(chain);
+    chain.listen_for(1.2);
+  } else {
+    chain.listen_until([&] { return chain.true_speed_mps() < 0.01; }, 8.0);
+    chain.listen_for(0.5);
+    strike_utime = simulated_strike(chain, from);
+  }
+  Outcome outcome = judge(chain, strike_utime);
+  outcome.has_driven = has_driven;
+  outcome.reason = reason_after(chain, strike_utime);
+  if (!chain.states.empty()) outcome.last_state = chain.states.back();
+  outcome.output = chain.output();
+  free_places().release();
+  return outcome;
+}
+
+class SafetyFault : public ::testing::TestWithParam<Fault> {
+ protected:
+  static void SetUpTestSuite() {
+    enter_private_network();
+    int port = 27800;
+    for (const Fault& fault : faults()) {
+      drives()[fault.name] = std::async(std::launch::async, drive_into, fault, ++port).share();
+    }
+  }
+  static std::map<std::string, std::shared_future<Outcome>>& drives() {
+    static std::map<std::string, std::shared_future<Outcome>> running;
+    return running;
+  }
+};
+
+TEST_P(SafetyFault, StopsTheWheelsOrChangesNothing) {
+  const Fault& fault = GetParam();
+  const Outcome outcome = drives().at(fault.name).get();
+  std::printf("%-24s %5.0f ms %6.3f m  %s\n", fault.name.c_str(),
+              outcome.stop_s ? 1e3 * *outcome.stop_s : -1.0, outcome.way_m, outcome.reason.c_str());
+  ASSERT_TRUE(outcome.has_driven) << outcome.output;
+  EXPECT_LT(outcome.fastest_mps, 0.36);
+  if (fault.goes_on) {
+    EXPECT_FALSE(outcome.stop_s.has_value()) << outcome.reason;
+    const create_state_t& state = outcome.last_state;
+    EXPECT_GT(state.refused_unsigned + state.refused_forged + state.refused_out_of_order, 30);
+    return;
+  }
+  ASSERT_TRUE(outcome.stop_s.has_value()) << outcome.output;
+  // 0.3 m/s for 300 ms, and as much again for a machine that has other things to do.
+  EXPECT_LT(outcome.way_m, 0.18);
+  EXPECT_NE(outcome.reason.find(fault.reason), std::string::npos) << outcome.reason;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SafetyFault, ::testing::ValuesIn(faults()),
+                         [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace roomwise

@@ -1,0 +1,67 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/bus/lcm_bus.h"
+#include "common/channels.h"
+#include "tests/support/child_process.h"
+#include "tests/support/scratch_folder.h"
+
+namespace roomwise {
+
+/// How one drive is set up.
+struct ChainSetup {
+  std::string url;
+  std::string scenario = "empty";      ///< of the simulator, or the text of one (with a newline)
+  std::vector<std::string> simulator;  ///< further options
+  std::vector<std::string> safety;
+  double speed_mps = 0.3;  ///< what is asked for, at 20 Hz
+  double turn_rate_radps = 0.0;
+};
+
+/// simulator, kinect_pub, segment_svc, create_driver and safety_svc as real processes on a bus of
+/// their own, somebody who asks for one motion, and all that is said meanwhile. To be used inside a
+/// private network.
+class SafetyChain {
+ public:
+  enum Part { kSimulator, kKinectPub, kSegmentSvc, kCreateDriver, kSafetySvc };
+  static constexpr int kParts = 5;
+
+  explicit SafetyChain(const ChainSetup& setup);
+
+  void send_signal(Part part, int signal) const { processes_[part]->send_signal(signal); }
+
+  /// Listens until `enough` says so, looked at every 10 ms, or `patience_s` went by. Whether it
+  /// did.
+  bool listen_until(const std::function<bool()>& enough, double patience_s);
+  void listen_for(double time_s) {
+    listen_until([] { return false; }, time_s);
+  }
+
+  bool asks = true;
+  std::function<void(LcmBus&)> also;  ///< called every 10 ms
+
+  std::vector<truth_t> truth;
+  std::vector<create_state_t> states;
+  std::vector<safety_state_t> safety_states;
+  std::vector<velocity_command_t> commands;
+
+  /// How fast the robot really moves [m/s].
+  double true_speed_mps() const;
+  std::filesystem::path folder() const { return folder_.path(); }
+  std::string output() const;
+
+ private:
+  void start(Part part, std::vector<std::string> command);
+  void ask(LcmBus& bus);
+
+  ChainSetup setup_;
+  ScratchFolder folder_;
+  std::unique_ptr<ChildProcess> processes_[kParts];
+  int turns_ = 0;
+};
+
+}  // namespace roomwise
