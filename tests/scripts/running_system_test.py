@@ -1,0 +1,87 @@
+"""scripts/start and scripts/replay with the real programs, in a private network."""
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import private_network  # noqa: E402: found by the line above
+from started_run import PROGRAMS, ROOT, StartedRun  # noqa: E402
+
+from supervision.control import Control  # noqa: E402
+
+URL = "udpm://239.255.76.67:27667?ttl=0"
+SAMPLE = ROOT / "logs/samples/living_room.lcmlog"
+SERVICES = ("simulator", "create_driver", "kinect_pub", "landmark_svc", "segment_svc", "ekf_svc")
+ANSWERS = {"TRUTH", "CREATE_STATE", "KINECT_FRAME", "LANDMARKS", "SEGMENTS", "POSE"}
+
+
+class RunningSystem(StartedRun):
+    def setUp(self):
+        super().setUp()
+        absent = [name for name in (*SERVICES, "rwlog") if not (PROGRAMS / name).exists()]
+        if absent:
+            self.skipTest(f"{', '.join(absent)} not built")
+
+    def record(self, url=URL):
+        log = self.scratch / f"{random.getrandbits(32)}.lcmlog"
+        recorder = subprocess.Popen(["lcm-logger", "-q", f"--lcm-url={url}", log],
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+        def stop():
+            recorder.send_signal(signal.SIGTERM)
+            recorder.wait(timeout=10)
+        self.addCleanup(stop)
+        return log
+
+    @staticmethod
+    def channels(log):
+        """Channels that hold something; a log still written to may end in half a message."""
+        if not log.exists():
+            return set()
+        table = subprocess.run([PROGRAMS / "rwlog", "info", log], capture_output=True, text=True).stdout
+        return {line.split()[0] for line in table.splitlines() if line}
+
+    def assert_works(self, when):
+        log = self.record()
+        self.until(f"all messages {when}", lambda: ANSWERS <= self.channels(log))
+
+    def test_it_works_again_after_any_of_them_is_killed_and_in_any_order(self):
+        self.start("--sim", "empty", "--url", URL, "--only", ",".join(SERVICES))
+        before = self.until("all", self.all_up)
+        self.assert_works("at first")
+        for name in SERVICES:
+            self.kill(before[name]["pid"])
+        after = self.until("all again", lambda: self.restarted(before))
+        self.assert_works("after kill -9 of each")
+
+        control, order = Control(self.folder), list(SERVICES)
+        random.Random(2012).shuffle(order)
+        for name in after:
+            control.stop(name)
+        for name in order:
+            control.start(name)
+        self.until("all", self.all_up)
+        self.assert_works(f"started as {order}")
+        self.assertEqual(self.end(), 0)
+        self.assertFalse(self.processes())
+
+    def restarted(self, before):
+        now = self.all_up()
+        return now if now and all(now[n]["pid"] != before[n]["pid"] for n in now) else {}
+
+    def test_a_replay_answers_on_its_own_bus_and_ends_with_the_log(self):
+        log = self.record()
+        replay = subprocess.run(
+            [ROOT / "scripts/replay", SAMPLE, "landmark_svc", "--", "--run-dir", self.folder.path,
+             "--url", URL, "--programs", PROGRAMS], capture_output=True, text=True, timeout=60)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+        self.assertIn("landmark_svc, player on", replay.stdout)
+        self.assertTrue({"KINECT_FRAME", "TRUTH", "LANDMARKS"} <= self.channels(log), replay.stdout)
+
+
+if __name__ == "__main__":
+    private_network.enter()
+    unittest.main()
