@@ -7,6 +7,9 @@ namespace roomwise::ekf {
 struct EkfParams {
   /// "invariant": right-invariant EKF. "plain": the textbook EKF, for comparison and teaching.
   std::string filter = "invariant";
+  /// "map": builds the map and goes on with a saved one. "localise": a saved map stays as it is.
+  std::string mode = "map";
+  std::string map_path;        ///< file the map is kept in; empty: none
   int landmark_budget = 2000;  ///< most landmarks in the map; memory for them is taken at start
 
   double odometry_noise_ratio = 1.0;  ///< factor on the covariance ODOMETRY carries
@@ -36,6 +39,8 @@ struct EkfParams {
   template <class Field>
   void visit_fields(Field&& field) {
     field("filter", filter, {"invariant", "plain"});
+    field("mode", mode, {"map", "localise"});
+    field("map_path", map_path);
     field("landmark_budget", landmark_budget, 1, 8000);
     field("odometry_noise_ratio", odometry_noise_ratio, 1e-3, 1e3);
     field("self_calibration", self_calibration);

@@ -14,6 +14,10 @@ constexpr double kMissingMin_s = 0.005;  // less than this is jitter of time sta
 constexpr double kMissingMax_s = 10.0;
 constexpr double kBridgeSpeedMax_mps = 5.0;
 
+constexpr double kRelocaliseEvery_m = 0.25;  // of way
+constexpr double kRelocalisedFor_m = 1.0;    // how long it is said
+constexpr double kLostSigma = 1e3;           // of a pose nobody should use [m, rad]
+
 bool is_finite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad);
 }
@@ -121,6 +125,7 @@ FrameResult Estimator::process(Time frame, std::span<const Sighting> sightings,
   const bool is_due = schedule_.is_due(frame);
   const FrameResult result = slam_.process(sightings, is_due, verdicts);
   if (result.matched > 0) schedule_.updated(frame);
+  relocalise();
   has_frame_ = true;
   last_frame_ = frame;
   return result;
@@ -135,9 +140,38 @@ void Estimator::move_filter(Time until) {
 PoseEstimate Estimator::estimate() const {
   const MotionIncrement ahead = timeline_.ahead(filter().calibration());
   const Pose2 pose = filter().pose();
-  return {
+  PoseEstimate estimate{
       timeline_.end(), moved(pose, ahead),
       moved_covariance(pose.heading_rad, filter().robot_covariance(), ahead).topLeftCorner<3, 3>()};
+  if (relocaliser_) estimate.covariance.diagonal().setConstant(kLostSigma * kLostSigma);
+  return estimate;
+}
+
+Estimator::State Estimator::state() const {
+  if (!has_odometry_) return State::kStarting;
+  if (relocaliser_) return State::kLost;
+  return slam_.travel_m() < relocalised_until_travel_m_ ? State::kRelocalised : State::kTracking;
+}
+
+void Estimator::lose(MapSnapshot map) {
+  relocaliser_.emplace(std::move(map));
+  slam_.begin_anew();
+  relocalise_due_travel_m_ = slam_.travel_m() + kRelocaliseEvery_m;
+}
+
+void Estimator::relocalise() {
+  if (!relocaliser_ || slam_.travel_m() < relocalise_due_travel_m_) return;
+  relocalise_due_travel_m_ = slam_.travel_m() + kRelocaliseEvery_m;
+  filter().save(local_);
+  const auto place = relocaliser_->find(local_);
+  if (!place || !slam_.resume(relocaliser_->map(), *place)) return;
+  relocaliser_.reset();
+  relocalised_until_travel_m_ = slam_.travel_m() + kRelocalisedFor_m;
+}
+
+void Estimator::save(MapSnapshot& map) const {
+  map = {};
+  if (!relocaliser_) filter().save(map);
 }
 
 }  // namespace roomwise::ekf

@@ -7,8 +7,9 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kReach_m = 15.0;          // farther landmarks are never in view
-constexpr double kWellKnownSigma_m = 0.1;  // a third of how near landmarks stand to each other
+constexpr double kReach_m = 15.0;               // farther landmarks are never in view
+constexpr double kSigmaPerSpacing = 1.0 / 6.0;  // 3 sigma reach half way to the next landmark
+constexpr double kWellKnownSigmaMax_m = 0.5;
 constexpr JointCompatibility::Limits kLimits{.normal_quantile = kNormal99, .nodes = 3000};
 
 }  // namespace
@@ -50,9 +51,7 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
     const Residual residual = filter_->observation_residual(local.index, seen);
     const Eigen::Matrix2d S = filter_->innovation_covariance(residual);
     const double relative_m2 = S.trace() - residual.noise.trace();
-    if (!local.is_seen_lately && relative_m2 > 2.0 * kWellKnownSigma_m * kWellKnownSigma_m) {
-      continue;
-    }
+    if (!local.is_seen_lately && !is_well_known(local, 0.5 * relative_m2)) continue;
     const SignatureDistance colour =
         distance(what.signature, filter_->landmark(local.index).signature);
     const double squared = mahalanobis_sq(residual.innovation, S) + colour.squared;
@@ -67,6 +66,18 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
   }
   offers_.push_back(offer);
   return true;
+}
+
+/// Known so well that no other landmark of the kind could be meant.
+bool LocalAssociation::is_well_known(const LocalLandmark& local, double variance_m2) const {
+  if (variance_m2 > kWellKnownSigmaMax_m * kWellKnownSigmaMax_m) return false;
+  double nearest_m2 = std::numeric_limits<double>::infinity();
+  const std::int8_t kind = filter_->landmark(local.index).kind;
+  for (const LocalLandmark& other : locals_) {
+    if (other.index == local.index || filter_->landmark(other.index).kind != kind) continue;
+    nearest_m2 = std::min(nearest_m2, (other.p_map_m - local.p_map_m).squaredNorm());
+  }
+  return variance_m2 < kSigmaPerSpacing * kSigmaPerSpacing * nearest_m2;
 }
 
 void LocalAssociation::decide(std::span<Verdict> verdicts, std::span<Candidate> candidates) {

@@ -37,6 +37,7 @@ void tally(std::span<const Verdict> verdicts, FrameResult& result) {
       case Verdict::kHeld:
       case Verdict::kMoving:
       case Verdict::kTentative:
+      case Verdict::kMapFixed:
         break;
       default:
         ++result.rejected;
@@ -140,7 +141,8 @@ bool Slam::learn_from_refusals(std::span<const Sighting> sightings, std::span<Ve
     Landmark& landmark = filter_.landmark(candidates_[i].landmark);
     landmark.refusals = accepted ? 0 : landmark.refusals + 1;
     gate_monitor_.record(landmark.map_id, accepted);
-    if (landmark.refusals >= kRefusalsMax && gate_monitor_.others_are_accepted(landmark.map_id)) {
+    if (!map_is_fixed_ && landmark.refusals >= kRefusalsMax &&
+        gate_monitor_.others_are_accepted(landmark.map_id)) {
       verdicts[i] = Verdict::kReplaced;
     }
   }
@@ -198,6 +200,7 @@ void Slam::add_new(std::span<const Sighting> sightings, std::span<Verdict> verdi
 }
 
 Verdict Slam::add(const Sighting& sighting) {
+  if (map_is_fixed_) return Verdict::kMapFixed;
   const BodyObservation seen = body(sighting);
   if (sighting.identity < 0) {
     if (!tentative_.confirms(sighting, seen, params_.confirm_sightings)) return Verdict::kTentative;
@@ -206,7 +209,7 @@ Verdict Slam::add(const Sighting& sighting) {
   }
   const Landmark landmark{.identity = sighting.identity,
                           .kind = sighting.kind,
-                          .signature = sighting.signature,
+                          .signature = cleaned(sighting.signature),
                           .times_seen = 1,
                           .first_seen_travel_m = travel_m_,
                           .last_seen_travel_m = travel_m_};
@@ -222,7 +225,7 @@ void Slam::note_seen(std::span<const Verdict> verdicts) {
 
 void Slam::merge_what_is_one() {
   merged_.clear();
-  if (travel_m_ < closure_due_travel_m_) return;
+  if (map_is_fixed_ || travel_m_ < closure_due_travel_m_) return;
   closure_due_travel_m_ = travel_m_ + kClosureEvery_m;
   merge(closure_.find(travel_m_));
   merge(twins_.find(travel_m_));

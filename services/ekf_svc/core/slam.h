@@ -7,6 +7,7 @@
 #include "services/ekf_svc/core/ekf_params.h"
 #include "services/ekf_svc/core/gate_monitor.h"
 #include "services/ekf_svc/core/local_association.h"
+#include "services/ekf_svc/core/relocaliser.h"
 #include "services/ekf_svc/core/sighting.h"
 #include "services/ekf_svc/core/slam_filter.h"
 #include "services/ekf_svc/core/tentative_landmarks.h"
@@ -47,6 +48,14 @@ class Slam {
                       std::span<Verdict> verdicts);
 
   const SlamFilter& filter() const { return filter_; }
+  double travel_m() const { return travel_m_; }
+
+  /// Forgets the map; the robot stands at the origin of a new one.
+  void begin_anew();
+
+  /// Goes on with a saved map, in which the present map of a few landmarks was found to lie like
+  /// this. False if the map is larger than the budget.
+  [[nodiscard]] bool resume(const MapSnapshot& map, const Relocaliser::Place& place);
 
   /// Landmarks the last frame found to be others, by map_id.
   struct Merged {
@@ -71,6 +80,7 @@ class Slam {
   BodyObservation body(const Sighting& sighting) const;
 
   EkfParams params_;
+  bool map_is_fixed_ = false;  // mode "localise", once in the map
   SlamFilter filter_;
   GateMonitor gate_monitor_;
   LocalAssociation local_;

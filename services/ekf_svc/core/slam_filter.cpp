@@ -10,9 +10,6 @@
 namespace roomwise::ekf {
 namespace {
 
-// The map starts at the pose, so it is exact; a trace of variance keeps P positive definite.
-constexpr double kStartVariance = 1e-12;
-
 Landmark united(const Landmark& old, const Landmark& recent) {
   constexpr std::int32_t kTimesSeenMax = 1'000'000'000;
   Landmark both = old;
