@@ -51,7 +51,7 @@ void fill_quality(const ekf::Estimator& estimator, const ekf::FrameResult& last_
   message.landmarks_added = last_frame.added;
   message.landmarks_rejected = last_frame.rejected;
   message.landmarks_merged = last_frame.merged;
-  message.landmark_noise_ratio = 1.0;
+  message.landmark_noise_ratio = estimator.noise_ratio();
   message.state = to_state(estimator.state());
 }
 

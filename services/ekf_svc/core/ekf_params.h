@@ -26,6 +26,11 @@ struct EkfParams {
   double range_bias_m = 0.015;   ///< repeats from frame to frame; added to every range noise
   double lateral_bias_m = 0.01;  ///< the same across the line of sight
 
+  /// Where a landmark that is there is sure to be seen if nothing hides it.
+  double view_half_angle_rad = 0.42;
+  double view_range_min_m = 0.9;
+  double view_range_max_m = 3.2;
+
   int confirm_sightings = 3;  ///< a thing of unknown identity is mapped when seen so often
 
   double latency_max_s = 0.5;  ///< LANDMARKS this much older than ODOMETRY are still used in place
@@ -51,6 +56,9 @@ struct EkfParams {
     field("gap_turn_sigma_radps", gap_turn_sigma_radps, 0.0, 10.0);
     field("range_bias_m", range_bias_m, 0.0, 1.0);
     field("lateral_bias_m", lateral_bias_m, 0.0, 1.0);
+    field("view_half_angle_rad", view_half_angle_rad, 0.0, 3.2);
+    field("view_range_min_m", view_range_min_m, 0.0, 100.0);
+    field("view_range_max_m", view_range_max_m, 0.0, 100.0);
     field("confirm_sightings", confirm_sightings, 1, 100);
     field("latency_max_s", latency_max_s, 0.0, 5.0);
     field("update_travel_m", update_travel_m, 0.0, 1.0);

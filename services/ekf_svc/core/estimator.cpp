@@ -119,12 +119,13 @@ FrameTiming Estimator::timing(Time frame) const {
 }
 
 FrameResult Estimator::process(Time frame, std::span<const Sighting> sightings,
-                               std::span<Verdict> verdicts) {
+                               std::span<Verdict> verdicts, const VirtualScan& scan) {
   if (timing(frame) != FrameTiming::kReady) throw std::logic_error("Estimator: frame not ready");
   move_filter(frame);
   const bool is_due = schedule_.is_due(frame);
-  const FrameResult result = slam_.process(sightings, is_due, verdicts);
+  const FrameResult result = slam_.process(sightings, is_due, verdicts, scan);
   if (result.matched > 0) schedule_.updated(frame);
+  if (!relocaliser_ && slam_.says_lost()) lose_here();
   relocalise();
   has_frame_ = true;
   last_frame_ = frame;
@@ -149,7 +150,7 @@ PoseEstimate Estimator::estimate() const {
 
 Estimator::State Estimator::state() const {
   if (!has_odometry_) return State::kStarting;
-  if (relocaliser_) return State::kLost;
+  if (relocaliser_ || slam_.is_doubtful()) return State::kLost;
   return slam_.travel_m() < relocalised_until_travel_m_ ? State::kRelocalised : State::kTracking;
 }
 
@@ -157,6 +158,13 @@ void Estimator::lose(MapSnapshot map) {
   relocaliser_.emplace(std::move(map));
   slam_.begin_anew();
   relocalise_due_travel_m_ = slam_.travel_m() + kRelocaliseEvery_m;
+}
+
+/// What was mapped so far becomes the map to be found again in.
+void Estimator::lose_here() {
+  MapSnapshot map;
+  filter().save(map);
+  lose(std::move(map));
 }
 
 void Estimator::relocalise() {

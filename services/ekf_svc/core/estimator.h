@@ -46,7 +46,8 @@ class Estimator {
 
   /// Uses a frame whose timing is kReady (else std::logic_error). `verdicts` is as long as
   /// `sightings` and says what became of each.
-  FrameResult process(Time frame, std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  FrameResult process(Time frame, std::span<const Sighting> sightings, std::span<Verdict> verdicts,
+                      const VirtualScan& scan = {});
 
   /// Where the pose stands.
   enum class State { kStarting, kTracking, kLost, kRelocalised };
@@ -61,6 +62,7 @@ class Estimator {
 
   PoseEstimate estimate() const;
   const SlamFilter& filter() const { return slam_.filter(); }
+  double noise_ratio() const { return slam_.noise_ratio(); }
 
  private:
   OdometryVerdict first(const OdometrySample& sample);
@@ -71,6 +73,7 @@ class Estimator {
   void drop_latency();
   void move_filter(Time until);
 
+  void lose_here();
   void relocalise();
 
   EkfParams params_;

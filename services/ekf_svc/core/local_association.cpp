@@ -7,10 +7,10 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kReach_m = 15.0;               // farther landmarks are never in view
+constexpr double kLocalReach_m = 15.0;               // farther landmarks are never in view
 constexpr double kSigmaPerSpacing = 1.0 / 6.0;  // 3 sigma reach half way to the next landmark
 constexpr double kWellKnownSigmaMax_m = 0.5;
-constexpr JointCompatibility::Limits kLimits{.normal_quantile = kNormal99, .nodes = 3000};
+constexpr JointCompatibility::Limits kLocalLimits{.normal_quantile = kNormal99, .nodes = 3000};
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void LocalAssociation::begin(double travel_m) {
     if (landmark.identity >= 0) continue;
     const Eigen::Vector2d p_map_m = filter_->landmark_position_m(l);
     const double range_m2 = (p_map_m - p_robot_m).squaredNorm();
-    if (range_m2 > kReach_m * kReach_m) continue;
+    if (range_m2 > kLocalReach_m * kLocalReach_m) continue;
     // cov(a + b + c) <= 3 (cov a + cov b + cov c)
     const double spread_m2 =
         3.0 * (range_m2 * P(0, 0) + P(1, 1) + P(2, 2) + filter_->landmark_covariance_m2(l).trace());
@@ -81,7 +81,7 @@ bool LocalAssociation::is_well_known(const LocalLandmark& local, double variance
 }
 
 void LocalAssociation::decide(std::span<Verdict> verdicts, std::span<Candidate> candidates) {
-  const JointCompatibility::Answer& answer = joint_.search(kLimits);
+  const JointCompatibility::Answer& answer = joint_.search(kLocalLimits);
   std::size_t observation = 0;
   for (const Offer& offer : offers_) {
     const Pairing* pairing = offer.has_candidates ? answer.chosen[observation++] : nullptr;

@@ -9,23 +9,23 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr std::int32_t kTimesSeenMin = 5;
+constexpr std::int32_t kSureTimesSeenMin = 5;
 constexpr std::size_t kSureMax = 24;       // local landmarks compared
 constexpr std::size_t kAnchorsMax = 40;    // pairs of them that propose
 constexpr double kProposalReach_m = 0.25;  // proposals come from two landmarks only
 constexpr double kFitReach_m = 0.15;
 constexpr double kAnchorMin_m = 1.0;  // nearer pairs say little about the heading
 constexpr std::size_t kRivalMargin = 2;
-constexpr double kShareMin = 0.8;
+constexpr double kFittingShareMin = 0.8;
 constexpr double kOtherPlace_m = 0.4;  // proposals nearer to each other are of the same place
 constexpr double kOtherPlace_rad = 0.3;
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoLandmark = std::numeric_limits<std::size_t>::max();
 
 std::vector<std::size_t> sure_landmarks(const MapSnapshot& local) {
   std::vector<std::size_t> sure;
   for (std::size_t l = 0; l < local.landmarks.size(); ++l) {
     const Landmark& landmark = local.landmarks[l];
-    if (landmark.identity < 0 && landmark.times_seen >= kTimesSeenMin) sure.push_back(l);
+    if (landmark.identity < 0 && landmark.times_seen >= kSureTimesSeenMin) sure.push_back(l);
   }
   std::stable_sort(sure.begin(), sure.end(), [&](std::size_t a, std::size_t b) {
     return local.landmarks[a].times_seen > local.landmarks[b].times_seen;
@@ -60,7 +60,7 @@ Relocaliser::Relocaliser(MapSnapshot map) : map_(std::move(map)), index_(map_) {
 
 std::size_t Relocaliser::nearest(const Eigen::Vector2d& p_map_m, const Landmark& like,
                                  double reach_m) const {
-  std::size_t best = kNone;
+  std::size_t best = kNoLandmark;
   double best_m2 = reach_m * reach_m;
   auto at =
       std::lower_bound(by_x_.begin(), by_x_.end(), p_map_m.x() - reach_m,
@@ -85,7 +85,7 @@ std::vector<LandmarkPair> Relocaliser::pair_up(const MapSnapshot& local,
         nearest(transform(T_map_local, local.positions_m[a]), local.landmarks[a], reach_m);
     const bool is_free = std::none_of(pairs.begin(), pairs.end(),
                                       [=](const LandmarkPair& pair) { return pair.old == b; });
-    if (b != kNone && is_free) pairs.push_back({a, b});
+    if (b != kNoLandmark && is_free) pairs.push_back({a, b});
   }
   return pairs;
 }
@@ -151,7 +151,7 @@ std::optional<Relocaliser::Place> Relocaliser::find(const MapSnapshot& local) co
     middle += local.positions_m[l] / static_cast<double>(sure.size());
   }
   const auto enough = std::max(
-      kPairsMin, static_cast<std::size_t>(std::ceil(kShareMin * static_cast<double>(sure.size()))));
+      kPairsMin, static_cast<std::size_t>(std::ceil(kFittingShareMin * static_cast<double>(sure.size()))));
 
   std::optional<Place> best;
   std::size_t rival_pairs = 0;

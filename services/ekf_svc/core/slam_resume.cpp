@@ -31,6 +31,7 @@ void Slam::begin_anew() {
   filter_.reset();
   tentative_.clear();
   gate_monitor_.clear();
+  lifecycle_.clear();
   if (!params_.self_calibration) return;
   filter_.free_calibration({params_.calibration_sigma_ratio, params_.calibration_sigma_ratio,
                             params_.calibration_sigma_radpm});
@@ -58,6 +59,7 @@ bool Slam::resume(const MapSnapshot& map, const Relocaliser::Place& place) {
   }
   tentative_.clear();
   gate_monitor_.clear();
+  lifecycle_.clear();
   return filter_.update(residuals_) == UpdateResult::kUsed;
 }
 
