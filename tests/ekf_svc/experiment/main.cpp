@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   const std::map<std::string, std::function<int(int)>> experiments{
       {"consistency", consistency_experiment},
       {"association", association_experiment},
+      {"calibration", calibration_experiment},
       {"relocalisation", relocalisation_experiment}};
   const auto found = argc >= 2 ? experiments.find(argv[1]) : experiments.end();
   if (found == experiments.end()) {
