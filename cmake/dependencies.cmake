@@ -14,6 +14,7 @@ find_package(spdlog REQUIRED)
 find_package(benchmark REQUIRED)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_package(ZLIB REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
 
 # RapidCheck: Debian ships headers and a library, no CMake package of its own.
 find_path(RAPIDCHECK_INCLUDE_DIR rapidcheck.h REQUIRED)

@@ -66,6 +66,7 @@ void import_mrclam(const MrclamImport& import, std::ostream& notes) {
   fmt::print(notes, "dropped: {} sightings of other robots, {} of unknown barcodes\n",
              sightings.other_robots, sightings.unknown_barcodes);
   fmt::print(notes, "assumed: speed and turn rate hold until the next record\n");
+  fmt::print(notes, "assumed: the robot follows its record {} s later\n", import.odometry_delay_s);
   fmt::print(notes, "assumed: variance {} m^2/m of distance, {} rad^2/rad + {} rad^2/m of turn\n",
              import.distance_variance_m2_per_m, import.turn_variance_rad2_per_rad,
              import.turn_variance_rad2_per_m);
@@ -96,6 +97,7 @@ void add_import_mrclam(CLI::App& parent) {
   noise("--range-sigma", import->range_sigma_m, "[m]");
   noise("--range-sigma-per-m", import->range_sigma_per_m, "more of it a metre of range [m/m]");
   noise("--bearing-sigma", import->bearing_sigma_rad, "[rad]");
+  noise("--odometry-delay", import->odometry_delay_s, "of the motion behind its record [s]");
   command.add_flag("--unknown-identities", import->unknown_identities,
                    "identity -1: the filter must tell landmarks apart");
   command.callback([import] { import_mrclam(*import, std::cout); });

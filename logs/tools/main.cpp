@@ -1,6 +1,7 @@
 // rwlog: looks into, makes, converts and scores logs.
 #include <fmt/core.h>
 
+#include "logs/tools/smooth.h"
 #include "logs/tools/subcommands.h"
 
 namespace {
@@ -22,6 +23,7 @@ void add_subcommands(CLI::App& rwlog) {
   add_export_labels_png(convert);
   add_score(rwlog);
   add_train(rwlog);
+  add_smooth(rwlog);
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ std::vector<odometry_t> odometry_messages(const MrclamImport& import,
                                           const std::vector<MrclamVelocity>& velocities) {
   std::vector<odometry_t> messages;
   Pose2 T_odom_robot;
+  const auto delay_us = static_cast<std::int64_t>(import.odometry_delay_s * 1e6);
   for (std::size_t i = 0; i + 1 < velocities.size(); ++i) {
     const MrclamVelocity& held = velocities[i];
     const std::int64_t interval_us = velocities[i + 1].utime - held.utime;
@@ -77,7 +78,7 @@ std::vector<odometry_t> odometry_messages(const MrclamImport& import,
     const double turn_rad = held.turn_rate_radps * interval_s;
     T_odom_robot = drive_arc(T_odom_robot, distance_m, turn_rad);
     odometry_t message = odometry_message(import, distance_m, turn_rad);
-    message.utime = velocities[i + 1].utime;
+    message.utime = velocities[i + 1].utime + delay_us;
     message.seq = static_cast<std::int64_t>(messages.size()) + 1;
     message.interval_us = interval_us;
     message.x_m = T_odom_robot.x_m;

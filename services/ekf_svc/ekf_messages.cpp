@@ -25,6 +25,20 @@ map_landmark_t to_map_landmark(const ekf::SlamFilter& filter, std::size_t l) {
   return message;
 }
 
+std::int8_t to_state(ekf::Estimator::State state) {
+  switch (state) {
+    case ekf::Estimator::State::kStarting:
+      return pose_t::STATE_STARTING;
+    case ekf::Estimator::State::kTracking:
+      return pose_t::STATE_TRACKING;
+    case ekf::Estimator::State::kLost:
+      return pose_t::STATE_LOST;
+    case ekf::Estimator::State::kRelocalised:
+      return pose_t::STATE_RELOCALISED;
+  }
+  return pose_t::STATE_LOST;
+}
+
 void fill_quality(const ekf::Estimator& estimator, const ekf::FrameResult& last_frame,
                   pose_t& message) {
   const ekf::InnovationStatistics& innovation = estimator.filter().last_innovation();
@@ -36,7 +50,20 @@ void fill_quality(const ekf::Estimator& estimator, const ekf::FrameResult& last_
   message.landmarks_matched = last_frame.matched;
   message.landmarks_added = last_frame.added;
   message.landmarks_rejected = last_frame.rejected;
-  message.state = estimator.is_tracking() ? pose_t::STATE_TRACKING : pose_t::STATE_STARTING;
+  message.landmarks_merged = last_frame.merged;
+  message.landmark_noise_ratio = estimator.noise_ratio();
+  message.state = to_state(estimator.state());
+}
+
+void fill_calibration(const ekf::SlamFilter& filter, pose_t& message) {
+  const ekf::OdometryCalibration calibration = filter.calibration();
+  message.distance_scale_ratio = 1.0 + calibration.distance_ratio();
+  message.turn_scale_ratio = 1.0 + calibration.turn_ratio();
+  message.turn_per_distance_radpm = calibration.turn_per_distance_radpm();
+  const Eigen::Vector3d sigma = filter.robot_covariance().diagonal().tail<3>().cwiseSqrt();
+  message.distance_scale_sigma_ratio = sigma(0);
+  message.turn_scale_sigma_ratio = sigma(1);
+  message.turn_per_distance_sigma_radpm = sigma(2);
 }
 
 }  // namespace
@@ -85,6 +112,7 @@ pose_t to_pose_message(const ekf::Estimator& estimator, const ekf::FrameResult& 
   message.covariance_y_heading_m_rad = P(0, 2);
   message.covariance_heading_heading_rad2 = P(0, 0);
   fill_quality(estimator, last_frame, message);
+  fill_calibration(estimator.filter(), message);
   return message;
 }
 

@@ -1,6 +1,7 @@
 #include "services/ekf_svc/ekf_service.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "services/ekf_svc/ekf_messages.h"
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::size_t kFramesWaitingMax = 64;  // two seconds of a camera
 constexpr std::int64_t kMapPeriod_us = 1'000'000;
+constexpr std::int64_t kKeepPeriod_us = 5'000'000;
 
 constexpr const char* reason(ekf::OdometryVerdict verdict) {
   switch (verdict) {
@@ -54,7 +56,9 @@ constexpr const char* reason(ekf::FrameTiming timing) {
 
 }  // namespace
 
-EkfService::EkfService(Bus& bus, const Params& params) : bus_(bus), estimator_(params) {
+EkfService::EkfService(Bus& bus, const Params& params)
+    : bus_(bus), params_(params), estimator_(params) {
+  load_map();
   bus_.subscribe(channels::kOdometry, [this](const odometry_t& m) { on_odometry(m); });
   bus_.subscribe(channels::kLandmarks, [this](const landmark_list_t& m) { on_landmarks(m); });
 }
@@ -67,6 +71,7 @@ void EkfService::on_odometry(const odometry_t& message) {
   pose_t pose = to_pose_message(estimator_, last_frame_);
   bus_.publish(channels::kPose, pose);
   publish_map_if_due();
+  keep_map_if_due();
 }
 
 void EkfService::on_landmarks(const landmark_list_t& message) {
@@ -109,7 +114,46 @@ void EkfService::use(const WaitingFrame& frame) {
   }
 }
 
+EkfService::~EkfService() { keep_map(); }
+
+void EkfService::load_map() {
+  if (params_.map_path.empty()) {
+    if (params_.mode == "localise") throw std::runtime_error("mode localise needs map_path");
+    return;
+  }
+  map_file_.emplace(params_.map_path);
+  MapFile::Loaded loaded = map_file_->load();
+  if (!loaded.complaint.empty()) {
+    bus_.count("map_file_damaged");
+    bus_.note_error(loaded.complaint);
+  }
+  if (!loaded.map.empty()) {
+    estimator_.lose(std::move(loaded.map));
+  } else if (params_.mode == "localise") {
+    throw std::runtime_error("mode localise: no map in " + params_.map_path + " " +
+                             loaded.complaint);
+  }
+}
+
+void EkfService::keep_map_if_due() {
+  const std::int64_t period = utime_of(estimator_.estimate().time) / kKeepPeriod_us;
+  if (period == keep_period_number_) return;
+  keep_period_number_ = period;
+  keep_map();
+}
+
+/// A map that cannot be written must not stop the robot: it is said, and tried again.
+void EkfService::keep_map() try {
+  if (!map_file_ || params_.mode == "localise") return;
+  estimator_.save(kept_);
+  if (!kept_.empty()) map_file_->save(kept_);
+} catch (const std::exception& error) {
+  bus_.count("map_file_not_written");
+  bus_.note_error(error.what());
+}
+
 void EkfService::publish_map_if_due() {
+  if (estimator_.state() == ekf::Estimator::State::kLost) return;  // of where, nobody knows
   const std::int64_t second = utime_of(estimator_.estimate().time) / kMapPeriod_us;
   const std::size_t count = estimator_.filter().landmark_count();
   if (second == map_second_ && count == map_count_) return;

@@ -1,11 +1,13 @@
 #pragma once
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "common/bus/bus.h"
 #include "services/ekf_svc/core/ekf_params.h"
 #include "services/ekf_svc/core/estimator.h"
+#include "services/ekf_svc/map_file.h"
 
 namespace roomwise {
 
@@ -17,7 +19,13 @@ namespace roomwise {
 class EkfService {
  public:
   using Params = ekf::EkfParams;
+  /// Goes on with the map kept in params.map_path, lost until relocalised. Throws
+  /// std::runtime_error in mode "localise" without a map.
   EkfService(Bus& bus, const Params& params);
+  EkfService(const EkfService&) = delete;
+  EkfService& operator=(const EkfService&) = delete;
+  /// Keeps the map.
+  ~EkfService();
 
  private:
   struct WaitingFrame {
@@ -30,8 +38,15 @@ class EkfService {
   void use_waiting_frames();
   void use(const WaitingFrame& frame);
   void publish_map_if_due();
+  void load_map();
+  void keep_map_if_due();
+  void keep_map();
 
   Bus& bus_;
+  Params params_;
+  std::optional<MapFile> map_file_;
+  ekf::MapSnapshot kept_;                // as last written
+  std::int64_t keep_period_number_ = 0;  // of odometry time, when the map was last written
   ekf::Estimator estimator_;
   std::deque<WaitingFrame> waiting_;  // in order of time
   std::vector<ekf::Verdict> verdicts_;

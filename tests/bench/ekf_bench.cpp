@@ -244,7 +244,7 @@ int main(int argc, char** argv) {
 #ifndef ROOMWISE_HAVE_MRPT
   std::fprintf(stderr, "MRPT is not installed (scripts/setup --peers): no comparison with it\n");
 #endif
-  for (const int landmarks : {30, 300, 1000}) roomwise::ekf::add_frames(landmarks);
+  for (const int landmarks : {30, 100, 300, 1000}) roomwise::ekf::add_frames(landmarks);
   for (const std::size_t landmarks : {1000U, 2000U}) roomwise::ekf::add_sweep(landmarks);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

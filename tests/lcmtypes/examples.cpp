@@ -204,6 +204,14 @@ pose_t example() {
           .landmarks_matched = 3,
           .landmarks_added = 1,
           .landmarks_rejected = 2,
+          .landmarks_merged = 6,
+          .landmark_noise_ratio = 1.5,
+          .distance_scale_ratio = 0.98,
+          .turn_scale_ratio = 1.01,
+          .turn_per_distance_radpm = -0.005,
+          .distance_scale_sigma_ratio = 0.006,
+          .turn_scale_sigma_ratio = 0.007,
+          .turn_per_distance_sigma_radpm = 0.008,
           .state = pose_t::STATE_TRACKING};
 }
 

@@ -4,6 +4,7 @@ namespace roomwise::ekf {
 
 /// Quantiles of the standard normal distribution.
 inline constexpr double kNormal95 = 1.6449;
+inline constexpr double kNormal975 = 1.9600;
 inline constexpr double kNormal99 = 2.3263;
 
 /// chi^2 quantile where the standard normal one is `normal`, within 0.2 % (Wilson, Hilferty, PNAS

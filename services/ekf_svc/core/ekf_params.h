@@ -7,6 +7,9 @@ namespace roomwise::ekf {
 struct EkfParams {
   /// "invariant": right-invariant EKF. "plain": the textbook EKF, for comparison and teaching.
   std::string filter = "invariant";
+  /// "map": builds the map and goes on with a saved one. "localise": a saved map stays as it is.
+  std::string mode = "map";
+  std::string map_path;        ///< file the map is kept in; empty: none
   int landmark_budget = 2000;  ///< most landmarks in the map; memory for them is taken at start
 
   double odometry_noise_ratio = 1.0;  ///< factor on the covariance ODOMETRY carries
@@ -23,6 +26,11 @@ struct EkfParams {
   double range_bias_m = 0.015;   ///< repeats from frame to frame; added to every range noise
   double lateral_bias_m = 0.01;  ///< the same across the line of sight
 
+  /// Where a landmark that is there is sure to be seen if nothing hides it.
+  double view_half_angle_rad = 0.42;
+  double view_range_min_m = 0.9;
+  double view_range_max_m = 3.2;
+
   int confirm_sightings = 3;  ///< a thing of unknown identity is mapped when seen so often
 
   double latency_max_s = 0.5;  ///< LANDMARKS this much older than ODOMETRY are still used in place
@@ -36,6 +44,8 @@ struct EkfParams {
   template <class Field>
   void visit_fields(Field&& field) {
     field("filter", filter, {"invariant", "plain"});
+    field("mode", mode, {"map", "localise"});
+    field("map_path", map_path);
     field("landmark_budget", landmark_budget, 1, 8000);
     field("odometry_noise_ratio", odometry_noise_ratio, 1e-3, 1e3);
     field("self_calibration", self_calibration);
@@ -46,6 +56,9 @@ struct EkfParams {
     field("gap_turn_sigma_radps", gap_turn_sigma_radps, 0.0, 10.0);
     field("range_bias_m", range_bias_m, 0.0, 1.0);
     field("lateral_bias_m", lateral_bias_m, 0.0, 1.0);
+    field("view_half_angle_rad", view_half_angle_rad, 0.0, 3.2);
+    field("view_range_min_m", view_range_min_m, 0.0, 100.0);
+    field("view_range_max_m", view_range_max_m, 0.0, 100.0);
     field("confirm_sightings", confirm_sightings, 1, 100);
     field("latency_max_s", latency_max_s, 0.0, 5.0);
     field("update_travel_m", update_travel_m, 0.0, 1.0);

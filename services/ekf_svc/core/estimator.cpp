@@ -14,6 +14,10 @@ constexpr double kMissingMin_s = 0.005;  // less than this is jitter of time sta
 constexpr double kMissingMax_s = 10.0;
 constexpr double kBridgeSpeedMax_mps = 5.0;
 
+constexpr double kRelocaliseEvery_m = 0.25;  // of way
+constexpr double kRelocalisedFor_m = 1.0;    // how long it is said
+constexpr double kLostSigma = 1e3;           // of a pose nobody should use [m, rad]
+
 bool is_finite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad);
 }
@@ -115,12 +119,14 @@ FrameTiming Estimator::timing(Time frame) const {
 }
 
 FrameResult Estimator::process(Time frame, std::span<const Sighting> sightings,
-                               std::span<Verdict> verdicts) {
+                               std::span<Verdict> verdicts, const VirtualScan& scan) {
   if (timing(frame) != FrameTiming::kReady) throw std::logic_error("Estimator: frame not ready");
   move_filter(frame);
   const bool is_due = schedule_.is_due(frame);
-  const FrameResult result = slam_.process(sightings, is_due, verdicts);
+  const FrameResult result = slam_.process(sightings, is_due, verdicts, scan);
   if (result.matched > 0) schedule_.updated(frame);
+  if (!relocaliser_ && slam_.says_lost()) lose_here();
+  relocalise();
   has_frame_ = true;
   last_frame_ = frame;
   return result;
@@ -135,9 +141,45 @@ void Estimator::move_filter(Time until) {
 PoseEstimate Estimator::estimate() const {
   const MotionIncrement ahead = timeline_.ahead(filter().calibration());
   const Pose2 pose = filter().pose();
-  return {
+  PoseEstimate estimate{
       timeline_.end(), moved(pose, ahead),
       moved_covariance(pose.heading_rad, filter().robot_covariance(), ahead).topLeftCorner<3, 3>()};
+  if (relocaliser_) estimate.covariance.diagonal().setConstant(kLostSigma * kLostSigma);
+  return estimate;
+}
+
+Estimator::State Estimator::state() const {
+  if (!has_odometry_) return State::kStarting;
+  if (relocaliser_ || slam_.is_doubtful()) return State::kLost;
+  return slam_.travel_m() < relocalised_until_travel_m_ ? State::kRelocalised : State::kTracking;
+}
+
+void Estimator::lose(MapSnapshot map) {
+  relocaliser_.emplace(std::move(map));
+  slam_.begin_anew();
+  relocalise_due_travel_m_ = slam_.travel_m() + kRelocaliseEvery_m;
+}
+
+/// What was mapped so far becomes the map to be found again in.
+void Estimator::lose_here() {
+  MapSnapshot map;
+  filter().save(map);
+  lose(std::move(map));
+}
+
+void Estimator::relocalise() {
+  if (!relocaliser_ || slam_.travel_m() < relocalise_due_travel_m_) return;
+  relocalise_due_travel_m_ = slam_.travel_m() + kRelocaliseEvery_m;
+  filter().save(local_);
+  const auto place = relocaliser_->find(local_);
+  if (!place || !slam_.resume(relocaliser_->map(), *place)) return;
+  relocaliser_.reset();
+  relocalised_until_travel_m_ = slam_.travel_m() + kRelocalisedFor_m;
+}
+
+void Estimator::save(MapSnapshot& map) const {
+  map = {};
+  if (!relocaliser_) filter().save(map);
 }
 
 }  // namespace roomwise::ekf

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "common/geometry/pose2.h"
@@ -7,6 +8,7 @@
 #include "services/ekf_svc/core/ekf_params.h"
 #include "services/ekf_svc/core/odometry_sample.h"
 #include "services/ekf_svc/core/odometry_timeline.h"
+#include "services/ekf_svc/core/relocaliser.h"
 #include "services/ekf_svc/core/slam.h"
 #include "services/ekf_svc/core/update_schedule.h"
 
@@ -44,11 +46,23 @@ class Estimator {
 
   /// Uses a frame whose timing is kReady (else std::logic_error). `verdicts` is as long as
   /// `sightings` and says what became of each.
-  FrameResult process(Time frame, std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  FrameResult process(Time frame, std::span<const Sighting> sightings, std::span<Verdict> verdicts,
+                      const VirtualScan& scan = {});
 
-  bool is_tracking() const { return has_odometry_; }
+  /// Where the pose stands.
+  enum class State { kStarting, kTracking, kLost, kRelocalised };
+  State state() const;
+
+  /// Makes the robot lost in this map: what it maps from now on is its own, until it is found where
+  /// in the map it is.
+  void lose(MapSnapshot map);
+
+  /// The map as it should be kept; empty while the robot is lost.
+  void save(MapSnapshot& map) const;
+
   PoseEstimate estimate() const;
   const SlamFilter& filter() const { return slam_.filter(); }
+  double noise_ratio() const { return slam_.noise_ratio(); }
 
  private:
   OdometryVerdict first(const OdometrySample& sample);
@@ -59,8 +73,15 @@ class Estimator {
   void drop_latency();
   void move_filter(Time until);
 
+  void lose_here();
+  void relocalise();
+
   EkfParams params_;
   Slam slam_;
+  std::optional<Relocaliser> relocaliser_;  // while lost
+  MapSnapshot local_;                       // what it is offered
+  double relocalise_due_travel_m_ = 0.0;
+  double relocalised_until_travel_m_ = -1.0;
   OdometryTimeline timeline_;
   UpdateSchedule schedule_;
   bool has_odometry_ = false;

@@ -18,6 +18,7 @@ struct Landmark {
   Signature signature = {};
   std::int32_t times_seen = 0;
   std::int32_t refusals = 0;         ///< gate refusals in a row
+  std::int32_t score = 0;            ///< sightings less the times it was looked through
   double first_seen_travel_m = 0.0;  ///< way the robot had gone then
   double last_seen_travel_m = 0.0;
 };

@@ -7,9 +7,10 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kReach_m = 15.0;          // farther landmarks are never in view
-constexpr double kWellKnownSigma_m = 0.1;  // a third of how near landmarks stand to each other
-constexpr JointCompatibility::Limits kLimits{.normal_quantile = kNormal99, .nodes = 3000};
+constexpr double kLocalReach_m = 15.0;               // farther landmarks are never in view
+constexpr double kSigmaPerSpacing = 1.0 / 6.0;  // 3 sigma reach half way to the next landmark
+constexpr double kWellKnownSigmaMax_m = 0.5;
+constexpr JointCompatibility::Limits kLocalLimits{.normal_quantile = kNormal99, .nodes = 3000};
 
 }  // namespace
 
@@ -29,7 +30,7 @@ void LocalAssociation::begin(double travel_m) {
     if (landmark.identity >= 0) continue;
     const Eigen::Vector2d p_map_m = filter_->landmark_position_m(l);
     const double range_m2 = (p_map_m - p_robot_m).squaredNorm();
-    if (range_m2 > kReach_m * kReach_m) continue;
+    if (range_m2 > kLocalReach_m * kLocalReach_m) continue;
     // cov(a + b + c) <= 3 (cov a + cov b + cov c)
     const double spread_m2 =
         3.0 * (range_m2 * P(0, 0) + P(1, 1) + P(2, 2) + filter_->landmark_covariance_m2(l).trace());
@@ -50,9 +51,7 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
     const Residual residual = filter_->observation_residual(local.index, seen);
     const Eigen::Matrix2d S = filter_->innovation_covariance(residual);
     const double relative_m2 = S.trace() - residual.noise.trace();
-    if (!local.is_seen_lately && relative_m2 > 2.0 * kWellKnownSigma_m * kWellKnownSigma_m) {
-      continue;
-    }
+    if (!local.is_seen_lately && !is_well_known(local, 0.5 * relative_m2)) continue;
     const SignatureDistance colour =
         distance(what.signature, filter_->landmark(local.index).signature);
     const double squared = mahalanobis_sq(residual.innovation, S) + colour.squared;
@@ -69,8 +68,20 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
   return true;
 }
 
+/// Known so well that no other landmark of the kind could be meant.
+bool LocalAssociation::is_well_known(const LocalLandmark& local, double variance_m2) const {
+  if (variance_m2 > kWellKnownSigmaMax_m * kWellKnownSigmaMax_m) return false;
+  double nearest_m2 = std::numeric_limits<double>::infinity();
+  const std::int8_t kind = filter_->landmark(local.index).kind;
+  for (const LocalLandmark& other : locals_) {
+    if (other.index == local.index || filter_->landmark(other.index).kind != kind) continue;
+    nearest_m2 = std::min(nearest_m2, (other.p_map_m - local.p_map_m).squaredNorm());
+  }
+  return variance_m2 < kSigmaPerSpacing * kSigmaPerSpacing * nearest_m2;
+}
+
 void LocalAssociation::decide(std::span<Verdict> verdicts, std::span<Candidate> candidates) {
-  const JointCompatibility::Answer& answer = joint_.search(kLimits);
+  const JointCompatibility::Answer& answer = joint_.search(kLocalLimits);
   std::size_t observation = 0;
   for (const Offer& offer : offers_) {
     const Pairing* pairing = offer.has_candidates ? answer.chosen[observation++] : nullptr;

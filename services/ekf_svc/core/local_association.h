@@ -10,8 +10,9 @@ namespace roomwise::ekf {
 /// Which landmarks the sightings of unknown identity in a frame are of, decided for all together.
 ///
 /// Only local landmarks are asked: those seen in the last kLocalTravel_m of way, and those whose
-/// place relative to the robot is known well. The rest are left to ConstellationClosure: after a
-/// long way round, one frame of a narrow view cannot tell one doorway from the next.
+/// place relative to the robot is known far better than they stand apart. The rest are left to
+/// ConstellationClosure: after a long way round, one frame of a narrow view cannot tell one doorway
+/// from the next.
 ///
 /// A sighting joins the jointly compatible set (99 %), or is of something new if no local landmark
 /// is nearer than d^2 = 25, or else ambiguous (Bailey et al., IROS 2006).
@@ -44,6 +45,8 @@ class LocalAssociation {
     double nearest_sq;
     bool has_candidates;
   };
+
+  bool is_well_known(const LocalLandmark& local, double variance_m2) const;
 
   const SlamFilter* filter_;
   std::vector<LocalLandmark> locals_;

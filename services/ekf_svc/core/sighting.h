@@ -28,6 +28,7 @@ enum class Verdict : std::uint8_t {
   kTaken,              ///< another sighting in the frame fits that landmark better
   kTentative,          ///< may become a landmark if it is seen again from elsewhere
   kPassedOver,         ///< more sightings in the frame than can be told apart at once
+  kMapFixed,           ///< new, but the map is not to change
   kMoving,             ///< on something that moves
   kBudgetFull,         ///< new, but the map is full
   kNotFinite,          ///< NaN or infinite
@@ -38,12 +39,15 @@ enum class Verdict : std::uint8_t {
 };
 
 /// For HEALTH; in the order of Verdict.
-inline constexpr std::array<std::string_view, 16> kVerdictNames{
-    "sighting_matched",       "sighting_added",           "sighting_replaced",
-    "sighting_held",          "sighting_ambiguous",       "sighting_outlier",
-    "sighting_taken",         "sighting_tentative",       "sighting_passed_over",
-    "sighting_moving",        "sighting_budget_full",     "sighting_not_finite",
-    "sighting_range_invalid", "sighting_bearing_invalid", "sighting_covariance_invalid",
+inline constexpr std::array<std::string_view, 17> kVerdictNames{
+    "sighting_matched",         "sighting_added",
+    "sighting_replaced",        "sighting_held",
+    "sighting_ambiguous",       "sighting_outlier",
+    "sighting_taken",           "sighting_tentative",
+    "sighting_passed_over",     "sighting_map_fixed",
+    "sighting_moving",          "sighting_budget_full",
+    "sighting_not_finite",      "sighting_range_invalid",
+    "sighting_bearing_invalid", "sighting_covariance_invalid",
     "sighting_singular"};
 
 constexpr std::string_view name_of(Verdict verdict) {

@@ -25,6 +25,10 @@ SignatureDistance distance(const Signature& a, const Signature& b) {
   return {(red * red + blue * blue) / variance, 2};
 }
 
+Signature cleaned(const Signature& signature) {
+  return is_usable(signature) ? signature : Signature{};
+}
+
 Signature fused(const Signature& a, const Signature& b) {
   if (!is_usable(b)) return a;
   if (!is_usable(a)) return b;

@@ -11,6 +11,9 @@ struct SignatureDistance {
 };
 SignatureDistance distance(const Signature& a, const Signature& b);
 
+/// The signature itself if it says anything, else one without colour.
+Signature cleaned(const Signature& signature);
+
 /// The mean of both, weighted by inverse variance.
 Signature fused(const Signature& a, const Signature& b);
 

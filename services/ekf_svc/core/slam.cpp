@@ -37,6 +37,7 @@ void tally(std::span<const Verdict> verdicts, FrameResult& result) {
       case Verdict::kHeld:
       case Verdict::kMoving:
       case Verdict::kTentative:
+      case Verdict::kMapFixed:
         break;
       default:
         ++result.rejected;
@@ -51,6 +52,7 @@ Slam::Slam(const EkfParams& params)
       filter_(params.filter == "plain" ? ErrorForm::kPlain : ErrorForm::kInvariant,
               static_cast<std::size_t>(params.landmark_budget)),
       local_(filter_),
+      lifecycle_(filter_, params),
       closure_(filter_),
       twins_(filter_) {
   if (params.self_calibration) {
@@ -73,7 +75,7 @@ void Slam::predict(const MotionIncrement& motion) {
 }
 
 FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
-                          std::span<Verdict> verdicts) {
+                          std::span<Verdict> verdicts, const VirtualScan& scan) {
   FrameResult result{.seen = static_cast<int>(sightings.size())};
   candidates_.resize(sightings.size());
   judge_all(sightings, verdicts);
@@ -84,6 +86,7 @@ FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
     std::replace(verdicts.begin(), verdicts.end(), Verdict::kMatched, Verdict::kHeld);
   }
   note_seen(verdicts);
+  if (may_update) remove_what_is_gone(sightings, verdicts, scan);
   add_new(sightings, verdicts);
   merge_what_is_one();
   result.merged = static_cast<int>(merged_.size());
@@ -92,7 +95,9 @@ FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
 }
 
 BodyObservation Slam::body(const Sighting& sighting) const {
-  return to_body(sighting.polar, params_.range_bias_m, params_.lateral_bias_m);
+  BodyObservation seen = to_body(sighting.polar, params_.range_bias_m, params_.lateral_bias_m);
+  seen.covariance_m2 *= noise_monitor_.ratio();
+  return seen;
 }
 
 void Slam::judge_all(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
@@ -140,7 +145,8 @@ bool Slam::learn_from_refusals(std::span<const Sighting> sightings, std::span<Ve
     Landmark& landmark = filter_.landmark(candidates_[i].landmark);
     landmark.refusals = accepted ? 0 : landmark.refusals + 1;
     gate_monitor_.record(landmark.map_id, accepted);
-    if (landmark.refusals >= kRefusalsMax && gate_monitor_.others_are_accepted(landmark.map_id)) {
+    if (!map_is_fixed_ && landmark.refusals >= kRefusalsMax &&
+        gate_monitor_.others_are_accepted(landmark.map_id)) {
       verdicts[i] = Verdict::kReplaced;
     }
   }
@@ -173,6 +179,7 @@ void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> 
     residuals_.push_back(filter_.observation_residual(candidates_[i].landmark, body(sightings[i])));
   }
   const bool used = filter_.update(residuals_) == UpdateResult::kUsed;
+  if (used && !batch_.empty()) noise_monitor_.record(filter_.last_innovation());
   for (const std::size_t i : batch_) {
     if (!used) {
       verdicts[i] = Verdict::kSingular;
@@ -198,6 +205,7 @@ void Slam::add_new(std::span<const Sighting> sightings, std::span<Verdict> verdi
 }
 
 Verdict Slam::add(const Sighting& sighting) {
+  if (map_is_fixed_) return Verdict::kMapFixed;
   const BodyObservation seen = body(sighting);
   if (sighting.identity < 0) {
     if (!tentative_.confirms(sighting, seen, params_.confirm_sightings)) return Verdict::kTentative;
@@ -206,7 +214,7 @@ Verdict Slam::add(const Sighting& sighting) {
   }
   const Landmark landmark{.identity = sighting.identity,
                           .kind = sighting.kind,
-                          .signature = sighting.signature,
+                          .signature = cleaned(sighting.signature),
                           .times_seen = 1,
                           .first_seen_travel_m = travel_m_,
                           .last_seen_travel_m = travel_m_};
@@ -220,9 +228,17 @@ void Slam::note_seen(std::span<const Verdict> verdicts) {
   }
 }
 
+/// Removing changes landmark numbers: those of this frame's candidates are not used after it.
+void Slam::remove_what_is_gone(std::span<const Sighting> sightings,
+                               std::span<const Verdict> verdicts, const VirtualScan& scan) {
+  const auto gone = lifecycle_.weigh(filter_, sightings, verdicts, candidates_, scan);
+  if (map_is_fixed_ || lifecycle_.says_lost()) return;
+  for (const std::size_t l : gone) filter_.remove(l);
+}
+
 void Slam::merge_what_is_one() {
   merged_.clear();
-  if (travel_m_ < closure_due_travel_m_) return;
+  if (map_is_fixed_ || travel_m_ < closure_due_travel_m_) return;
   closure_due_travel_m_ = travel_m_ + kClosureEvery_m;
   merge(closure_.find(travel_m_));
   merge(twins_.find(travel_m_));

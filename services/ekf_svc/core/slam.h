@@ -6,7 +6,10 @@
 #include "services/ekf_svc/core/constellation_closure.h"
 #include "services/ekf_svc/core/ekf_params.h"
 #include "services/ekf_svc/core/gate_monitor.h"
+#include "services/ekf_svc/core/landmark_lifecycle.h"
 #include "services/ekf_svc/core/local_association.h"
+#include "services/ekf_svc/core/noise_monitor.h"
+#include "services/ekf_svc/core/relocaliser.h"
 #include "services/ekf_svc/core/sighting.h"
 #include "services/ekf_svc/core/slam_filter.h"
 #include "services/ekf_svc/core/tentative_landmarks.h"
@@ -42,11 +45,26 @@ class Slam {
 
   /// Uses a frame taken at the present pose. `may_update` false: landmarks already mapped are not
   /// measured again, new ones are added. `verdicts` (as long as `sightings`) says what became of
-  /// each.
+  /// each. `scan`, if there is one, is of the same frame.
   FrameResult process(std::span<const Sighting> sightings, bool may_update,
-                      std::span<Verdict> verdicts);
+                      std::span<Verdict> verdicts, const VirtualScan& scan = {});
+
+  /// The robot is somewhere else: what the map promises is not there.
+  bool says_lost() const { return lifecycle_.says_lost(); }
+  /// Known landmarks contradict the pose, and widening it has not helped yet.
+  bool is_doubtful() const { return widening_ratio_ > kWideningRatioTrusted; }
+  /// Factor on the covariance of what is seen, from how well it fits.
+  double noise_ratio() const { return noise_monitor_.ratio(); }
 
   const SlamFilter& filter() const { return filter_; }
+  double travel_m() const { return travel_m_; }
+
+  /// Forgets the map; the robot stands at the origin of a new one.
+  void begin_anew();
+
+  /// Goes on with a saved map, in which the present map of a few landmarks was found to lie like
+  /// this. False if the map is larger than the budget.
+  [[nodiscard]] bool resume(const MapSnapshot& map, const Relocaliser::Place& place);
 
   /// Landmarks the last frame found to be others, by map_id.
   struct Merged {
@@ -66,14 +84,21 @@ class Slam {
   void note_seen(std::span<const Verdict> verdicts);
   void merge_what_is_one();
   void merge(std::span<const LandmarkPair> pairs);
+  void remove_what_is_gone(std::span<const Sighting> sightings, std::span<const Verdict> verdicts,
+                           const VirtualScan& scan);
   void add_new(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   Verdict add(const Sighting& sighting);
   BodyObservation body(const Sighting& sighting) const;
 
+  static constexpr double kWideningRatioTrusted = 4.0;
+
   EkfParams params_;
+  bool map_is_fixed_ = false;  // mode "localise", once in the map
   SlamFilter filter_;
   GateMonitor gate_monitor_;
   LocalAssociation local_;
+  NoiseMonitor noise_monitor_;
+  LandmarkLifecycle lifecycle_;
   TentativeLandmarks tentative_;
   ConstellationClosure closure_;
   TwinLandmarks twins_;

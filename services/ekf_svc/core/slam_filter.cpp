@@ -10,14 +10,11 @@
 namespace roomwise::ekf {
 namespace {
 
-// The map starts at the pose, so it is exact; a trace of variance keeps P positive definite.
-constexpr double kStartVariance = 1e-12;
-
 Landmark united(const Landmark& old, const Landmark& recent) {
-  constexpr std::int32_t kTimesSeenMax = 1'000'000'000;
+  constexpr std::int32_t kCountMax = 1'000'000'000;
   Landmark both = old;
   both.times_seen =
-      std::min(old.times_seen, kTimesSeenMax) + std::min(recent.times_seen, kTimesSeenMax);
+      std::min(old.times_seen, kCountMax) + std::min(recent.times_seen, kCountMax);
   both.signature = fused(old.signature, recent.signature);
   both.last_seen_travel_m = std::max(old.last_seen_travel_m, recent.last_seen_travel_m);
   both.refusals = 0;

@@ -11,6 +11,7 @@
 #include "services/ekf_svc/core/covariance_sweep.h"
 #include "services/ekf_svc/core/landmark.h"
 #include "services/ekf_svc/core/landmark_pair.h"
+#include "services/ekf_svc/core/map_snapshot.h"
 #include "services/ekf_svc/core/motion.h"
 #include "services/ekf_svc/core/residual.h"
 
@@ -139,7 +140,20 @@ class SlamFilter {
   static constexpr std::size_t kRobotSize = 6;
   static constexpr std::size_t landmark_index(std::size_t l) { return kRobotSize + 2 * l; }
 
+  /// The map without the robot. May allocate.
+  void save(MapSnapshot& map) const;
+
+  /// Goes on with a saved map, from a pose that owes nothing to it. What was known of the
+  /// odometry's calibration stays. False, and nothing done, if the budget is smaller.
+  [[nodiscard]] bool restore(const MapSnapshot& map, const Pose2& pose,
+                             const Eigen::Matrix3d& pose_covariance);
+
+  /// As constructed; but no map_id is used twice.
+  void reset();
+
  private:
+  // The map starts at the pose, so it is exact; a trace of variance keeps P positive definite.
+  static constexpr double kStartVariance = 1e-12;
   static constexpr std::size_t kDimensionMax = 2 * kResidualsMax;
   using InnovationMatrix = double[kDimensionMax][kDimensionMax];
 

@@ -9,12 +9,12 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kRecentTravel_m = 4.0;
-constexpr std::int32_t kTimesSeenMin = 5;
+constexpr double kTwinRecentTravel_m = 4.0;
+constexpr std::int32_t kTwinTimesSeenMin = 5;
 constexpr double kWellKnownSigma_m = 0.05;
-constexpr double kRivalSqMin = 25.0;
-constexpr double kReach_m = 1.0;
-constexpr std::size_t kNone = Candidate::kNone;
+constexpr double kTwinRivalSqMin = 25.0;
+constexpr double kTwinReach_m = 1.0;
+constexpr std::size_t kNoTwin = Candidate::kNone;
 constexpr double kTwinSigma_m = ConstellationClosure::kSigma_m;
 
 }  // namespace
@@ -27,10 +27,10 @@ std::span<const LandmarkPair> TwinLandmarks::find(double travel_m) {
   pairs_.clear();
   for (std::size_t a = 0; a < filter_->landmark_count(); ++a) {
     const Landmark& landmark = filter_->landmark(a);
-    if (landmark.identity >= 0 || landmark.times_seen < kTimesSeenMin) continue;
-    if (travel_m - landmark.last_seen_travel_m > kRecentTravel_m) continue;
+    if (landmark.identity >= 0 || landmark.times_seen < kTwinTimesSeenMin) continue;
+    if (travel_m - landmark.last_seen_travel_m > kTwinRecentTravel_m) continue;
     const std::size_t b = only_twin_of(a);
-    if (b == kNone || pairs_.size() == SlamFilter::kResidualsMax) continue;
+    if (b == kNoTwin || pairs_.size() == SlamFilter::kResidualsMax) continue;
     const bool is_free = std::none_of(pairs_.begin(), pairs_.end(), [=](const LandmarkPair& pair) {
       return pair.old == b || pair.recent == b || pair.old == a;
     });
@@ -39,19 +39,19 @@ std::span<const LandmarkPair> TwinLandmarks::find(double travel_m) {
   return pairs_;
 }
 
-/// The one landmark that can be the same as `recent`, or kNone.
+/// The one landmark that can be the same as `recent`, or kNoTwin.
 std::size_t TwinLandmarks::only_twin_of(std::size_t recent) const {
-  std::size_t twin = kNone;
+  std::size_t twin = kNoTwin;
   for (std::size_t b = 0; b < filter_->landmark_count(); ++b) {
     if (b == recent || !may_be_one(filter_->landmark(recent), filter_->landmark(b))) continue;
     const Eigen::Vector2d apart =
         filter_->landmark_position_m(recent) - filter_->landmark_position_m(b);
-    if (apart.squaredNorm() > kReach_m * kReach_m) continue;
+    if (apart.squaredNorm() > kTwinReach_m * kTwinReach_m) continue;
     const Fit fit_b = fit(recent, b);
-    if (fit_b.squared > kRivalSqMin) continue;
+    if (fit_b.squared > kTwinRivalSqMin) continue;
     const bool fits = fit_b.is_well_known && fit_b.squared < chi_square_quantile(2, kNormal95) &&
-                      filter_->landmark(b).times_seen >= kTimesSeenMin;
-    if (!fits || twin != kNone) return kNone;
+                      filter_->landmark(b).times_seen >= kTwinTimesSeenMin;
+    if (!fits || twin != kNoTwin) return kNoTwin;
     twin = b;
   }
   return twin;

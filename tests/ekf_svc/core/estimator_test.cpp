@@ -59,10 +59,10 @@ class EstimatorTest : public testing::Test {
 };
 
 TEST_F(EstimatorTest, FirstReportIsTheMapsOrigin) {
-  EXPECT_FALSE(estimator_.is_tracking());
+  EXPECT_FALSE(estimator_.state() != Estimator::State::kStarting);
   EXPECT_EQ(estimator_.timing(kStart), FrameTiming::kNoOdometry);
   EXPECT_EQ(feed(), OdometryVerdict::kFirst);
-  EXPECT_TRUE(estimator_.is_tracking());
+  EXPECT_TRUE(estimator_.state() != Estimator::State::kStarting);
   EXPECT_EQ(estimator_.estimate().T_map_robot.x_m, 0.0);
   EXPECT_EQ(estimator_.estimate().time, kStart + kTick);
 }

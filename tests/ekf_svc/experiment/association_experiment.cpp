@@ -9,8 +9,8 @@
 #include <string>
 
 #include "services/ekf_svc/core/slam.h"
-#include "tests/ekf_svc/experiment/corridor_world.h"
 #include "tests/ekf_svc/experiment/experiments.h"
+#include "tests/ekf_svc/support/corridor_world.h"
 
 namespace roomwise::ekf {
 namespace {

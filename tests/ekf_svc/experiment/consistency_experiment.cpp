@@ -66,7 +66,6 @@ struct Sums {
 }  // namespace
 
 int consistency_experiment(int runs) {
-  constexpr double kNormal975 = 1.95996;
   const double low = chi_square_quantile(3 * runs, -kNormal975) / (3.0 * runs);
   const double high = chi_square_quantile(3 * runs, kNormal975) / (3.0 * runs);
   fmt::print("ANEES/3 of the pose, {} runs; an honest filter is within [{:.3f}, {:.3f}]\n", runs,

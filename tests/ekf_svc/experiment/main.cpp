@@ -11,7 +11,10 @@
 int main(int argc, char** argv) {
   using namespace roomwise::ekf;
   const std::map<std::string, std::function<int(int)>> experiments{
-      {"consistency", consistency_experiment}, {"association", association_experiment}};
+      {"consistency", consistency_experiment},
+      {"association", association_experiment},
+      {"calibration", calibration_experiment},
+      {"relocalisation", relocalisation_experiment}};
   const auto found = argc >= 2 ? experiments.find(argv[1]) : experiments.end();
   if (found == experiments.end()) {
     fmt::print(stderr, "usage: slam_experiment NAME [RUNS]; NAME:");

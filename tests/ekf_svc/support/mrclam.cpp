@@ -50,7 +50,7 @@ void add_odometry(const std::vector<std::vector<double>>& rows, const Noise& noi
     const double half = 0.5 * turn;
     const double chord = distance * (std::abs(half) > 1e-9 ? std::sin(half) / half : 1.0);
     odom = compose(odom, {chord * std::cos(half), chord * std::sin(half), turn});
-    message.utime = end;
+    message.utime = end + utime_of_seconds(noise.odometry_delay_s);
     message.seq++;
     message.interval_us = end - begin;
     message.distance_increment_m = distance;

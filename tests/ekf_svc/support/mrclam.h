@@ -24,6 +24,7 @@ struct Noise {
   double range_m = 0.10;
   double range_ratio = 0.03;
   double bearing_rad = 0.03;
+  double odometry_delay_s = 0.25;  ///< the recorded speeds are commands; the robot follows later
 };
 
 /// Speeds are held until the next line. Sightings of one instant are one LANDMARKS message; those

@@ -1,4 +1,4 @@
-#include "tests/ekf_svc/experiment/corridor_world.h"
+#include "tests/ekf_svc/support/corridor_world.h"
 
 #include <cmath>
 

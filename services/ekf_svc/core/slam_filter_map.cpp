@@ -1,0 +1,70 @@
+// SlamFilter's map taken out and put back.
+#include <algorithm>
+
+#include "services/ekf_svc/core/slam_filter.h"
+
+namespace roomwise::ekf {
+
+void SlamFilter::save(MapSnapshot& map) const {
+  map.landmarks = landmarks_;
+  map.positions_m.clear();
+  for (std::size_t l = 0; l < landmarks_.size(); ++l) {
+    map.positions_m.push_back(landmark_position_m(l));
+  }
+  map.covariance_m2.clear();
+  for (std::size_t i = kRobotSize; i < size(); ++i) {
+    const double* row = covariance_.row(i);
+    map.covariance_m2.insert(map.covariance_m2.end(), row + i, row + size());
+  }
+  map.calibration = calibration();
+  map.calibration_covariance = robot_covariance().bottomRightCorner<3, 3>();
+  map.next_map_id = next_map_id_;
+}
+
+void SlamFilter::reset() {
+  const std::size_t n = size();
+  for (std::size_t i = 0; i < n; ++i) {
+    x_.data()[i] = 0.0;
+    std::fill(covariance_.row(i) + i, covariance_.row(i) + n, 0.0);
+  }
+  for (std::size_t i = 0; i < kPoseSize; ++i) covariance_.set(i, i, kStartVariance);
+  landmarks_.clear();
+  last_innovation_ = {};
+}
+
+bool SlamFilter::restore(const MapSnapshot& map, const Pose2& pose,
+                         const Eigen::Matrix3d& pose_covariance) {
+  if (map.landmarks.size() > budget_) return false;
+  const OdometryCalibration known = calibration();
+  const Eigen::Matrix3d known_covariance = robot_covariance().bottomRightCorner<3, 3>();
+  reset();
+  double* x = x_.data();
+  x[kHeading] = wrap_angle(pose.heading_rad);
+  x[kPosition] = pose.x_m;
+  x[kPosition + 1] = pose.y_m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto r = static_cast<Eigen::Index>(i);
+    x[kCalibration + i] = known.value(r);
+    for (std::size_t j = i; j < 3; ++j) {
+      const auto c = static_cast<Eigen::Index>(j);
+      covariance_.set(i, j, pose_covariance(r, c));
+      covariance_.set(kCalibration + i, kCalibration + j, known_covariance(r, c));
+    }
+  }
+  landmarks_.assign(map.landmarks.begin(), map.landmarks.end());
+  for (std::size_t l = 0; l < landmarks_.size(); ++l) {
+    x[landmark_index(l)] = map.positions_m[l].x();
+    x[landmark_index(l) + 1] = map.positions_m[l].y();
+  }
+  const double* value = map.covariance_m2.data();
+  for (std::size_t i = kRobotSize; i < size(); ++i) {
+    for (std::size_t j = i; j < size(); ++j) covariance_.set(i, j, *value++);
+  }
+  for (std::size_t i = 0; i < kRobotSize; ++i) {
+    std::fill(covariance_.row(i) + kRobotSize, covariance_.row(i) + size(), 0.0);
+  }
+  next_map_id_ = map.next_map_id;
+  return true;
+}
+
+}  // namespace roomwise::ekf

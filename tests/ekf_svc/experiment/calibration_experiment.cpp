@@ -1,0 +1,112 @@
+// Wheels that are wrong by up to 10 %: does the filter find out, does the pose gain by it, and does
+// it stay honest?
+#include <fmt/core.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "services/ekf_svc/core/slam.h"
+#include "tests/ekf_svc/experiment/experiments.h"
+#include "tests/ekf_svc/support/corridor_world.h"
+
+namespace roomwise::ekf {
+namespace {
+
+constexpr int kLaps = 3;
+
+/// What wheels that are wrong like this report of a motion: the filter's correction undone.
+MotionStep as_reported(const MotionIncrement& motion, const OdometryCalibration& truth) {
+  MotionStep step = chord_step(
+      {motion.translation_m.x(), motion.translation_m.y(), motion.turn_rad}, motion.covariance);
+  step.twist = truth.correction().partialPivLu().solve(step.twist);
+  return step;
+}
+
+struct Outcome {
+  double mean_square_m2 = 0.0;
+  double nees_ratio = 0.0;
+  Eigen::Vector3d calibration_error = Eigen::Vector3d::Zero();
+};
+
+Outcome drive_with(const OdometryCalibration& truth, bool learns, std::uint64_t seed) {
+  CorridorSettings settings;
+  settings.classes = 4;
+  CorridorWorld world(settings, seed);
+  const Pose2 start = world.truth();
+  EkfParams params;
+  params.range_bias_m = params.lateral_bias_m = 0.0;
+  params.self_calibration = learns;
+  params.landmark_budget = 1000;
+  Slam slam(params);
+  Outcome outcome;
+  const int steps = static_cast<int>(kLaps * world.lap_m() / settings.step_m);
+  int instants = 0;
+  for (int step = 1; step <= steps; ++step) {
+    MotionIncrement motion;
+    motion.append(as_reported(world.drive(), truth), slam.filter().calibration());
+    slam.predict(motion);
+    std::vector<Sighting> sightings;
+    for (const auto& seen : world.look()) {
+      sightings.push_back(seen.sighting);
+      sightings.back().identity = seen.landmark;  // the odometry alone is on trial
+    }
+    std::vector<Verdict> verdicts(sightings.size());
+    slam.process(sightings, true, verdicts);
+    const Pose2 pose = slam.filter().pose();
+    const Pose2 true_pose = compose(inverse(start), world.truth());
+    const Eigen::Vector3d error(wrap_angle(true_pose.heading_rad - pose.heading_rad),
+                                true_pose.x_m - pose.x_m, true_pose.y_m - pose.y_m);
+    outcome.mean_square_m2 += error.tail<2>().squaredNorm() / steps;
+    if (step % 200 != 0) continue;
+    outcome.nees_ratio += error.dot(slam.filter().pose_covariance().ldlt().solve(error)) / 3.0;
+    ++instants;
+  }
+  outcome.nees_ratio /= instants;
+  outcome.calibration_error = slam.filter().calibration().value - truth.value;
+  return outcome;
+}
+
+void print_row(const char* name, const std::vector<Outcome>& outcomes) {
+  double mean_square = 0.0, nees = 0.0;
+  Eigen::Vector3d square = Eigen::Vector3d::Zero();
+  const auto count = static_cast<double>(outcomes.size());
+  for (const Outcome& one : outcomes) {
+    mean_square += one.mean_square_m2 / count;
+    nees += one.nees_ratio / count;
+    square += one.calibration_error.cwiseAbs2() / count;
+  }
+  const Eigen::Vector3d rms = square.cwiseSqrt();
+  fmt::print("{:34} {:>8.3f} {:>8.2f} {:>12.2f} {:>12.2f} {:>14.4f}\n", name,
+             std::sqrt(mean_square), nees, 100.0 * rms(0), 100.0 * rms(1), rms(2));
+}
+
+}  // namespace
+
+int calibration_experiment(int runs) {
+  fmt::print("{:34} {:>8} {:>8} {:>12} {:>12} {:>14}\n", "odometry", "RMSE m", "NEES/3",
+             "distance %", "turn %", "pull rad/m");
+  fmt::print("(the last three: RMS error of what is held of the wheels, over {} runs)\n", runs);
+  bool as_promised = true;
+  for (const bool is_biased : {false, true}) {
+    std::vector<Outcome> learning, trusting;
+    std::mt19937_64 engine(1);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (int seed = 1; seed <= runs; ++seed) {
+      OdometryCalibration truth;
+      if (is_biased)
+        truth.value << 0.1 * uniform(engine), 0.1 * uniform(engine), 0.04 * uniform(engine);
+      learning.push_back(drive_with(truth, true, static_cast<std::uint64_t>(seed)));
+      trusting.push_back(drive_with(truth, false, static_cast<std::uint64_t>(seed)));
+      const double ratio =
+          std::sqrt(learning.back().mean_square_m2 / trusting.back().mean_square_m2);
+      as_promised = as_promised && (!is_biased || ratio < 1.0);
+    }
+    print_row(is_biased ? "up to 10 % wrong, learning" : "right, learning all the same", learning);
+    print_row(is_biased ? "up to 10 % wrong, believed" : "right, believed", trusting);
+  }
+  return as_promised ? 0 : 1;
+}
+
+}  // namespace roomwise::ekf
