@@ -9,17 +9,21 @@ void add_subcommands(CLI::App& rwlog) {
   using namespace roomwise;
   add_info(rwlog);
   add_csv(rwlog);
+  add_cut(rwlog);
   CLI::App& import = *rwlog.add_subcommand("import", "Makes a log of somebody else's recording.");
   import.require_subcommand(1);
   add_import_7scenes(import);
   add_import_tum(import);
   add_import_mrclam(import);
-  CLI::App& convert = *rwlog.add_subcommand("export", "Makes text or a picture of a log.");
+  CLI::App& convert = *rwlog.add_subcommand("export", "Makes text, a picture or another format of a log.");
   convert.require_subcommand(1);
   add_export_trajectory(convert);
   add_export_map_png(convert);
   add_export_landmarks_png(convert);
   add_export_labels_png(convert);
+  add_export_ply(convert);
+  add_export_pcd(convert);
+  add_export_mcap(convert);
   add_score(rwlog);
   add_train(rwlog);
 }
