@@ -8,6 +8,7 @@ namespace roomwise {
 
 void add_info(CLI::App& parent);
 void add_csv(CLI::App& parent);
+void add_cut(CLI::App& parent);
 void add_import_7scenes(CLI::App& parent);
 void add_import_tum(CLI::App& parent);
 void add_import_mrclam(CLI::App& parent);
@@ -15,6 +16,9 @@ void add_export_trajectory(CLI::App& parent);
 void add_export_map_png(CLI::App& parent);
 void add_export_landmarks_png(CLI::App& parent);
 void add_export_labels_png(CLI::App& parent);
+void add_export_ply(CLI::App& parent);
+void add_export_pcd(CLI::App& parent);
+void add_export_mcap(CLI::App& parent);
 void add_score(CLI::App& parent);
 void add_train(CLI::App& parent);
 
