@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "common/geometry/angle.h"
 #include "services/landmark_svc/core/line_fit.h"
 #include "services/landmark_svc/core/surface_color.h"
 
@@ -17,20 +16,6 @@ double edge_column_px(const EdgePixel& edge) { return edge.u_px - 0.5 * edge.inw
 /// First pixel of the near surface to use: the near pixel itself, often a mixture of both
 /// surfaces, serves only where there is no other.
 int first_inside_px(const EdgePixel& edge) { return edge.near_run_px > 1 ? 1 : 0; }
-
-/// Covariance of (range, bearing) from sigmas along and across the camera's viewing direction.
-Eigen::Matrix2d polar_covariance(const Eigen::Vector2d& p_robot_m, const Eigen::Vector2d& forward,
-                                 double along_variance_m2, double lateral_variance_m2) {
-  const Eigen::Vector2d left(-forward.y(), forward.x());
-  const Eigen::Matrix2d cartesian = along_variance_m2 * forward * forward.transpose() +
-                                    lateral_variance_m2 * left * left.transpose();
-  const double range_m = p_robot_m.norm();
-  const Eigen::Vector2d toward = p_robot_m / range_m;
-  Eigen::Matrix2d jacobian;
-  jacobian << toward.x(), toward.y(), -toward.y() / range_m, toward.x() / range_m;
-  const Eigen::Matrix2d polar = jacobian * cartesian * jacobian.transpose();
-  return 0.5 * (polar + polar.transpose());
-}
 
 double mean_step_m(const DisparityTable& table, std::span<const EdgePixel> chain) {
   double sum_m = 0.0;
@@ -134,11 +119,11 @@ void ChainEstimator::describe_position(const Scene& scene, const Middle& middle,
   const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
                                     z_m * middle.forward + lines.lateral_m.mean_y() * left;
   const double lateral_noise_m = params.lateral_noise_px * z_m / scene.camera.fx_px;
-  landmark.range_m = p_robot_m.norm();
-  landmark.bearing_rad = wrap_angle(std::atan2(p_robot_m.y(), p_robot_m.x()));
-  landmark.covariance = polar_covariance(
-      p_robot_m, middle.forward, along_variance_m2,
-      lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m);
+  const double lateral_variance_m2 =
+      lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m;
+  set_position(landmark, p_robot_m,
+               along_variance_m2 * middle.forward * middle.forward.transpose() +
+                   lateral_variance_m2 * left * left.transpose());
   landmark.height_low_m = lines.height_low_m;
   landmark.height_high_m = lines.height_high_m;
 }

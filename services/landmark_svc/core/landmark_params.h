@@ -4,6 +4,7 @@
 
 #include "services/landmark_svc/core/chain_estimator.h"
 #include "services/landmark_svc/core/color_weight.h"
+#include "services/landmark_svc/core/crease_finder.h"
 #include "services/landmark_svc/core/edge_chains.h"
 #include "services/landmark_svc/core/jump_edges.h"
 #include "services/landmark_svc/core/region_of_interest.h"
@@ -26,6 +27,8 @@ struct LandmarkParams {
   ColorWeightParams color;
   ChainParams chain;
   ChainEstimateParams estimate;
+  VirtualScanParams scan;
+  CreaseParams crease;
 
   bool is_thesis() const { return method == "thesis"; }
   /// 8 f b: disparity in quanta times depth in metres.
@@ -73,6 +76,17 @@ struct LandmarkParams {
     field("lateral_bias_m", estimate.lateral_bias_m, 1e-4, 1.0);
     field("depth_noise_quanta", estimate.depth_noise_quanta, 0.01, 100.0);
     field("depth_bias_m", estimate.depth_bias_m, 1e-4, 1.0);
+    field("scan_height_low_m", scan.height_low_m, 0.0, 3.0);
+    field("scan_height_high_m", scan.height_high_m, 0.0, 3.0);
+    field("scan_row_step_px", scan.row_step_px, 1, 100);
+    field("scan_rows_min_px", scan.rows_min_px, 1.0, 480.0);
+    field("crease_side_min_m", crease.side_min_m, 0.01, 2.0);
+    field("crease_side_max_m", crease.side_max_m, 0.01, 2.0);
+    field("crease_angle_min_rad", crease.angle_min_rad, 0.1, 1.5);
+    field("crease_residual_max_m", crease.residual_max_m, 1e-4, 1.0);
+    field("crease_off_scan_max_m", crease.off_scan_max_m, 1e-3, 1.0);
+    field("crease_suppress_px", crease.suppress_px, 0.0, 640.0);
+    field("crease_position_bias_m", crease.position_bias_m, 1e-4, 1.0);
   }
 };
 
