@@ -22,7 +22,7 @@ bool may_be(std::int8_t kind, std::int8_t true_kind) {
     case Kind::KIND_EDGE_RIGHT:
       return true_kind == Kind::KIND_CREASE_CONVEX || true_kind == Kind::KIND_POLE;
     case Kind::KIND_POLE:
-      return true_kind == Kind::KIND_POLE;
+      return true_kind == Kind::KIND_POLE || true_kind == Kind::KIND_CREASE_CONVEX;
     default:
       return kind == true_kind;
   }

@@ -25,6 +25,12 @@ double mean_step_m(const DisparityTable& table, std::span<const EdgePixel> chain
   return sum_m / static_cast<double>(chain.size());
 }
 
+double mean_depth_m(const DisparityTable& table, std::span<const EdgePixel> chain) {
+  double sum_m = 0.0;
+  for (const EdgePixel& pixel : chain) sum_m += table.depth_m(pixel.near_steps);
+  return sum_m / static_cast<double>(chain.size());
+}
+
 ChromaSignature near_color(const ColorAtDepth& color_at_depth, const ColorWeightParams& params,
                            std::span<const EdgePixel> chain) {
   SurfaceColor color(params.dark_luma_levels, params.noise_levels);
@@ -98,8 +104,36 @@ std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene,
   landmark.score_ratio = rows / (rows + rows_min) *
                          (landmark.step_m / (landmark.step_m + quantum_m)) /
                          (1.0 + raggedness * raggedness);
+  if (const auto reason = look_for_round(scene, chain, *middle, params, landmark)) return reason;
   constexpr double kRangeMin_m = 1e-3;
   if (!all_finite(landmark) || landmark.range_m < kRangeMin_m) return RejectReason::kLandmarkUnfit;
+  return std::nullopt;
+}
+
+std::optional<RejectReason> ChainEstimator::look_for_round(const Scene& scene,
+                                                           std::span<const EdgePixel> chain,
+                                                           const Middle& middle,
+                                                           const ChainEstimateParams& params,
+                                                           Landmark& landmark) {
+  const Eigen::Vector3d ray_camera((middle.u_px - scene.camera.cx_px) / scene.camera.fx_px,
+                                   (middle.v_px - scene.camera.cy_px) / scene.camera.fy_px, 1.0);
+  const Eigen::Vector2d ahead = scene.T_robot_camera.linear().col(2).head<2>().normalized();
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  const double along_ratio = ahead.dot((scene.T_robot_camera.linear() * ray_camera).head<2>());
+  if (!(along_ratio > 0.1)) return std::nullopt;
+  profile_.gather(scene.depth, scene.camera, scene.table, chain, along_ratio, params.round.arc_m);
+  TangentCircle circle;
+  const ProfileShape shape = profile_.shape(scene.table, params.round, circle);
+  if (shape == ProfileShape::kLimb) return RejectReason::kChainOnLimb;
+  if (shape == ProfileShape::kFlat) return std::nullopt;
+  landmark.kind = LandmarkKind::kPole;
+  const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
+                                    circle.center_m.x() * ahead + circle.center_m.y() * left;
+  const double radius_sigma_m = 0.15 * circle.radius_m;  // a short arc tells the radius badly
+  const double quantum_m = scene.table.quantum_m(circle.center_m.x());
+  const double sigma_m = std::hypot(radius_sigma_m + circle.rms_m, 0.3 * quantum_m);
+  const double variance_m2 = sigma_m * sigma_m + params.lateral_bias_m * params.lateral_bias_m;
+  set_position(landmark, p_robot_m, variance_m2 * Eigen::Matrix2d::Identity());
   return std::nullopt;
 }
 
@@ -135,6 +169,12 @@ void ChainEstimator::describe_look(const Scene& scene, std::span<const EdgePixel
   landmark.step_m = mean_step_m(scene.table, chain);
   landmark.chroma = near_color(scene.color, scene.color_params, chain);
   landmark.rows = static_cast<int>(chain.size());
+  const EdgePixel& low = chain.front();
+  const EdgePixel& high = chain.back();
+  landmark.column_slope = low.v_px == high.v_px
+                              ? 0.0
+                              : static_cast<double>(low.u_px - high.u_px) / (low.v_px - high.v_px);
+  landmark.depth_m = mean_depth_m(scene.table, chain);
   landmark.v_top_px = chain.back().v_px;
   landmark.v_bottom_px = chain.front().v_px;
 }

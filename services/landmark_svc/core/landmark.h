@@ -39,7 +39,9 @@ struct Landmark {
   double u_px = 0.0;         ///< mean column of the edge line, half a pixel outside the near pixels
   double v_top_px = 0.0;
   double v_bottom_px = 0.0;
-  bool is_moving = false;  ///< on something that moves
+  double column_slope = 0.0;  ///< of an edge: columns a row
+  double depth_m = 0.0;       ///< of an edge: mean depth of its near pixels
+  bool is_moving = false;     ///< on something that moves
 };
 
 /// Sets range, bearing and their covariance from a place in the robot frame and its covariance in

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "services/landmark_svc/core/landmark_pieces.h"
+#include "services/landmark_svc/core/thin_things.h"
 
 namespace roomwise::landmark {
 namespace {
@@ -76,6 +77,7 @@ void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
   const auto budget = static_cast<std::size_t>(params_.landmarks_max);
   keep_best(landmarks_, 4 * budget, rejected_);
   join_pieces(landmarks_, params_.join_gate_mahalanobis_sq, rejected_);
+  join_thin_things(landmarks_, frame.depth, table_, params_.thin_width_max_m);
   drop_creases_at_edges(landmarks_, rejected_);
   keep_best(landmarks_, budget, rejected_);
 }

@@ -20,6 +20,7 @@ struct LandmarkParams {
   double disparity_focal_px = 585.0;       ///< focal length of the sensor's 640 px matching grid
   int landmarks_max = 64;                  ///< a frame, best scored first
   double join_gate_mahalanobis_sq = 9.21;  ///< chi-square, 2 degrees of freedom, 99 %
+  double thin_width_max_m = 0.25;          ///< two edges nearer to each other make one pole
   int edge_pixels_listed_max = 4000;       ///< in the message, evenly thinned; all are counted
   RegionParams region;
   JumpEdgeParams jump;
@@ -76,6 +77,13 @@ struct LandmarkParams {
     field("lateral_bias_m", estimate.lateral_bias_m, 1e-4, 1.0);
     field("depth_noise_quanta", estimate.depth_noise_quanta, 0.01, 100.0);
     field("depth_bias_m", estimate.depth_bias_m, 1e-4, 1.0);
+    field("round_arc_m", estimate.round.arc_m, 0.02, 1.0);
+    field("pole_radius_min_m", estimate.round.pole_radius_min_m, 0.005, 1.0);
+    field("pole_radius_max_m", estimate.round.pole_radius_max_m, 0.01, 2.0);
+    field("limb_radius_max_m", estimate.round.limb_radius_max_m, 0.01, 3.0);
+    field("round_bend_quanta", estimate.round.bend_quanta, 0.01, 10.0);
+    field("round_better_ratio", estimate.round.better_ratio, 0.01, 1.0);
+    field("thin_width_max_m", thin_width_max_m, 0.0, 1.0);
     field("scan_height_low_m", scan.height_low_m, 0.0, 3.0);
     field("scan_height_high_m", scan.height_high_m, 0.0, 3.0);
     field("scan_row_step_px", scan.row_step_px, 1, 100);

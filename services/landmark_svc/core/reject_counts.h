@@ -19,12 +19,13 @@ enum class RejectReason : std::uint8_t {
   kChainOnLimb,        ///< the outline of something wide and round: it moves with the viewpoint
   kCreaseNotStraight,  ///< a side of it scatters about its line
   kCreaseOffScan,      ///< the two sides' lines cross elsewhere
+  kCreaseOnRound,      ///< a circle fits better than two lines
   kCreaseAtEdge,       ///< an edge or a pole stands there already
   kLandmarkUnfit,      ///< position not finite, or at the robot's own origin
   kLandmarkMerged,     ///< a second piece of the same edge, joined to the first
   kLandmarkOverBudget,
 };
-inline constexpr std::size_t kRejectReasons = 15;
+inline constexpr std::size_t kRejectReasons = 16;
 
 /// The name a count goes by in messages.
 constexpr std::string_view name_of(RejectReason reason) {
