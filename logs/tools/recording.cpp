@@ -31,10 +31,28 @@ void add_true_landmarks(Bus& bus, const truth_t& truth, std::vector<MapPoint>& l
   landmarks.clear();
   for (const true_landmark_t& landmark : truth.true_landmarks) {
     if (are_coordinates({landmark.true_x_m, landmark.true_y_m})) {
-      landmarks.push_back({landmark.identity, {landmark.true_x_m, landmark.true_y_m}});
+      landmarks.push_back(
+          {landmark.identity, {landmark.true_x_m, landmark.true_y_m}, landmark.kind});
     } else {
       bus.count("true_landmark_not_usable");
     }
+  }
+}
+
+void add_seen(Bus& bus, const landmark_list_t& message, std::vector<SeenFrame>& frames) {
+  if (message.frame_seq == 0) return;  // of no camera frame
+  if (!is_time(message.utime)) {
+    bus.count("landmarks_time_not_usable");
+    return;
+  }
+  SeenFrame& frame = frames.emplace_back(SeenFrame{message.utime, {}});
+  for (const landmark_observation_t& seen : message.landmarks) {
+    if (!are_coordinates({seen.range_m, seen.bearing_rad})) {
+      bus.count("landmark_not_usable");
+      continue;
+    }
+    const Eigen::Vector2d toward(std::cos(seen.bearing_rad), std::sin(seen.bearing_rad));
+    frame.landmarks.push_back({message.utime, seen.kind, seen.moving != 0, seen.range_m * toward});
   }
 }
 
@@ -55,7 +73,7 @@ std::vector<MapPoint> Recording::map_points() const {
   std::vector<MapPoint> points;
   if (!map) return points;
   for (const map_landmark_t& landmark : map->map_landmarks) {
-    points.push_back({landmark.identity, {landmark.map_x_m, landmark.map_y_m}});
+    points.push_back({landmark.identity, {landmark.map_x_m, landmark.map_y_m}, 0});
   }
   return points;
 }
@@ -73,11 +91,8 @@ void gather(Bus& bus, Recording& recording) {
   });
   bus.subscribe(channels::kLandmarkMap,
                 [&](const landmark_map_t& m) { set_map(bus, m, recording); });
-  bus.subscribe(channels::kLandmarks, [&recording](const landmark_list_t& m) {
-    if (m.frame_seq == 0) return;
-    ++recording.landmark_frames;
-    recording.landmarks_in_frames += m.count;
-  });
+  bus.subscribe(channels::kLandmarks,
+                [&](const landmark_list_t& m) { add_seen(bus, m, recording.seen_frames); });
 }
 
 void sort_by_time(Recording& recording) {

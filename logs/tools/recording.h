@@ -11,6 +11,20 @@ namespace roomwise {
 
 class Bus;
 
+/// One element of LANDMARKS.
+struct SeenLandmark {
+  std::int64_t utime = 0;
+  std::int8_t kind = 0;
+  bool moving = false;
+  Eigen::Vector2d p_robot_m{0.0, 0.0};
+};
+
+/// One LANDMARKS message that came of a camera frame.
+struct SeenFrame {
+  std::int64_t utime = 0;
+  std::vector<SeenLandmark> landmarks;
+};
+
 /// What a log says of where the robot and the landmarks are.
 struct Recording {
   Trajectory poses;                      ///< POSE
@@ -18,8 +32,7 @@ struct Recording {
   Trajectory truth;                      ///< TRUTH
   std::vector<MapPoint> true_landmarks;  ///< the newest list that was not empty
   std::optional<landmark_map_t> map;     ///< the last
-  std::int64_t landmark_frames = 0;      ///< LANDMARKS messages that came of a camera frame
-  std::int64_t landmarks_in_frames = 0;  ///< and the landmarks in them
+  std::vector<SeenFrame> seen_frames;    ///< LANDMARKS
 
   std::vector<MapPoint> map_points() const;
 };

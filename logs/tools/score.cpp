@@ -7,6 +7,7 @@
 
 #include "logs/tools/floor_masks.h"
 #include "logs/tools/log_replay.h"
+#include "logs/tools/score_landmarks.h"
 #include "logs/tools/score_map.h"
 #include "logs/tools/score_trajectory.h"
 #include "logs/tools/subcommands.h"
@@ -40,6 +41,37 @@ void add_map(const Recording& recording, const std::optional<TrajectoryScore>& t
   scores.emplace_back("landmarks", static_cast<double>(points.size()));
 }
 
+void add_landmarks(const Recording& recording, Scores& scores) {
+  if (recording.seen_frames.empty()) return;
+  double seen = 0.0;
+  for (const SeenFrame& frame : recording.seen_frames) {
+    seen += static_cast<double>(frame.landmarks.size());
+  }
+  scores.emplace_back("landmarks_per_frame",
+                      seen / static_cast<double>(recording.seen_frames.size()));
+  const LandmarkScore score = score_landmarks(recording);
+  if (recording.true_landmarks.empty() || score.frames == 0) return;
+  const auto per_frame = [&](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(score.frames);
+  };
+  scores.emplace_back("landmarks_at_rest_per_frame", per_frame(score.seen));
+  scores.emplace_back("landmarks_moving_per_frame", per_frame(score.moving));
+  scores.emplace_back("landmarks_true_per_frame", per_frame(score.matches.size()));
+  scores.emplace_back("landmarks_false_per_frame", score.false_per_frame());
+  scores.emplace_back("landmarks_precision", score.precision_ratio());
+  scores.emplace_back("landmarks_error_rms_m", score.error_rms_m());
+  scores.emplace_back("landmarks_repeat_std_to_2m", score.repeat_std_m(0.0, 2.0));
+  scores.emplace_back("landmarks_repeat_std_2m_to_3.5m", score.repeat_std_m(2.0, 3.5));
+  scores.emplace_back("landmarks_viewpoint_median_m", score.viewpoint_median_m());
+  const char* const kKinds[] = {"", "edge_left", "edge_right", "convex", "concave", "pole"};
+  for (std::int8_t kind = 1; kind <= 5; ++kind) {
+    const LandmarkCounts counts = score.of_kind(kind);
+    const std::string name = std::string("landmarks_") + kKinds[kind];
+    scores.emplace_back(name + "_per_frame", per_frame(counts.seen));
+    scores.emplace_back(name + "_precision", counts.precision_ratio());
+  }
+}
+
 /// Six decimals, fewer where the rest are 0.
 std::string value_text(double value) {
   std::string text = fmt::format("{:.6f}", value);
@@ -56,10 +88,7 @@ Scores score_recording(const Recording& recording) {
   add_trajectory("", trajectory, scores);
   add_trajectory("odometry_", score_trajectory(recording.odometry, recording.truth), scores);
   add_map(recording, trajectory, scores);
-  if (recording.landmark_frames > 0) {
-    scores.emplace_back("landmarks_per_frame", static_cast<double>(recording.landmarks_in_frames) /
-                                                   static_cast<double>(recording.landmark_frames));
-  }
+  add_landmarks(recording, scores);
   return scores;
 }
 

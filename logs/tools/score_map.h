@@ -11,6 +11,7 @@ namespace roomwise {
 struct MapPoint {
   std::int32_t identity = -1;  ///< -1: unknown
   Eigen::Vector2d p_m{0.0, 0.0};
+  std::int8_t kind = 0;  ///< landmark_observation_t::KIND_*
 };
 
 /// Landmarks that are the same thing: their places in the map and in the world. Same length.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "common/geometry/angle.h"
 #include "services/landmark_svc/core/line_fit.h"
 #include "services/landmark_svc/core/surface_color.h"
 
@@ -18,25 +17,17 @@ double edge_column_px(const EdgePixel& edge) { return edge.u_px - 0.5 * edge.inw
 /// surfaces, serves only where there is no other.
 int first_inside_px(const EdgePixel& edge) { return edge.near_run_px > 1 ? 1 : 0; }
 
-/// Covariance of (range, bearing) from sigmas along and across the camera's viewing direction.
-Eigen::Matrix2d polar_covariance(const Eigen::Vector2d& p_robot_m, const Eigen::Vector2d& forward,
-                                 double along_variance_m2, double lateral_variance_m2) {
-  const Eigen::Vector2d left(-forward.y(), forward.x());
-  const Eigen::Matrix2d cartesian = along_variance_m2 * forward * forward.transpose() +
-                                    lateral_variance_m2 * left * left.transpose();
-  const double range_m = p_robot_m.norm();
-  const Eigen::Vector2d toward = p_robot_m / range_m;
-  Eigen::Matrix2d jacobian;
-  jacobian << toward.x(), toward.y(), -toward.y() / range_m, toward.x() / range_m;
-  const Eigen::Matrix2d polar = jacobian * cartesian * jacobian.transpose();
-  return 0.5 * (polar + polar.transpose());
-}
-
 double mean_step_m(const DisparityTable& table, std::span<const EdgePixel> chain) {
   double sum_m = 0.0;
   for (const EdgePixel& pixel : chain) {
     sum_m += table.depth_m(pixel.far_steps) - table.depth_m(pixel.near_steps);
   }
+  return sum_m / static_cast<double>(chain.size());
+}
+
+double mean_depth_m(const DisparityTable& table, std::span<const EdgePixel> chain) {
+  double sum_m = 0.0;
+  for (const EdgePixel& pixel : chain) sum_m += table.depth_m(pixel.near_steps);
   return sum_m / static_cast<double>(chain.size());
 }
 
@@ -113,8 +104,36 @@ std::optional<RejectReason> ChainEstimator::estimate(const Scene& scene,
   landmark.score_ratio = rows / (rows + rows_min) *
                          (landmark.step_m / (landmark.step_m + quantum_m)) /
                          (1.0 + raggedness * raggedness);
+  if (const auto reason = look_for_round(scene, chain, *middle, params, landmark)) return reason;
   constexpr double kRangeMin_m = 1e-3;
   if (!all_finite(landmark) || landmark.range_m < kRangeMin_m) return RejectReason::kLandmarkUnfit;
+  return std::nullopt;
+}
+
+std::optional<RejectReason> ChainEstimator::look_for_round(const Scene& scene,
+                                                           std::span<const EdgePixel> chain,
+                                                           const Middle& middle,
+                                                           const ChainEstimateParams& params,
+                                                           Landmark& landmark) {
+  const Eigen::Vector3d ray_camera((middle.u_px - scene.camera.cx_px) / scene.camera.fx_px,
+                                   (middle.v_px - scene.camera.cy_px) / scene.camera.fy_px, 1.0);
+  const Eigen::Vector2d ahead = scene.T_robot_camera.linear().col(2).head<2>().normalized();
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  const double along_ratio = ahead.dot((scene.T_robot_camera.linear() * ray_camera).head<2>());
+  if (!(along_ratio > 0.1)) return std::nullopt;
+  profile_.gather(scene.depth, scene.camera, scene.table, chain, along_ratio, params.round.arc_m);
+  TangentCircle circle;
+  const ProfileShape shape = profile_.shape(scene.table, params.round, circle);
+  if (shape == ProfileShape::kLimb) return RejectReason::kChainOnLimb;
+  if (shape == ProfileShape::kFlat) return std::nullopt;
+  landmark.kind = LandmarkKind::kPole;
+  const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
+                                    circle.center_m.x() * ahead + circle.center_m.y() * left;
+  const double radius_sigma_m = 0.15 * circle.radius_m;  // a short arc tells the radius badly
+  const double quantum_m = scene.table.quantum_m(circle.center_m.x());
+  const double sigma_m = std::hypot(radius_sigma_m + circle.rms_m, 0.3 * quantum_m);
+  const double variance_m2 = sigma_m * sigma_m + params.lateral_bias_m * params.lateral_bias_m;
+  set_position(landmark, p_robot_m, variance_m2 * Eigen::Matrix2d::Identity());
   return std::nullopt;
 }
 
@@ -134,11 +153,11 @@ void ChainEstimator::describe_position(const Scene& scene, const Middle& middle,
   const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
                                     z_m * middle.forward + lines.lateral_m.mean_y() * left;
   const double lateral_noise_m = params.lateral_noise_px * z_m / scene.camera.fx_px;
-  landmark.range_m = p_robot_m.norm();
-  landmark.bearing_rad = wrap_angle(std::atan2(p_robot_m.y(), p_robot_m.x()));
-  landmark.covariance = polar_covariance(
-      p_robot_m, middle.forward, along_variance_m2,
-      lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m);
+  const double lateral_variance_m2 =
+      lateral_noise_m * lateral_noise_m + params.lateral_bias_m * params.lateral_bias_m;
+  set_position(landmark, p_robot_m,
+               along_variance_m2 * middle.forward * middle.forward.transpose() +
+                   lateral_variance_m2 * left * left.transpose());
   landmark.height_low_m = lines.height_low_m;
   landmark.height_high_m = lines.height_high_m;
 }
@@ -150,6 +169,12 @@ void ChainEstimator::describe_look(const Scene& scene, std::span<const EdgePixel
   landmark.step_m = mean_step_m(scene.table, chain);
   landmark.chroma = near_color(scene.color, scene.color_params, chain);
   landmark.rows = static_cast<int>(chain.size());
+  const EdgePixel& low = chain.front();
+  const EdgePixel& high = chain.back();
+  landmark.column_slope = low.v_px == high.v_px
+                              ? 0.0
+                              : static_cast<double>(low.u_px - high.u_px) / (low.v_px - high.v_px);
+  landmark.depth_m = mean_depth_m(scene.table, chain);
   landmark.v_top_px = chain.back().v_px;
   landmark.v_bottom_px = chain.front().v_px;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/image/rgbd_frame.h"
+#include "services/landmark_svc/core/chain_profile.h"
 #include "services/landmark_svc/core/color_weight.h"
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/edge_pixel.h"
@@ -26,6 +27,7 @@ struct ChainEstimateParams {
   double lateral_bias_m = 0.01;     ///< sigma of what repeats from row to row
   double depth_noise_quanta = 1.0;  ///< sigma of one row's depth
   double depth_bias_m = 0.015;
+  RoundParams round;
 };
 
 /// Turns chains of edge pixels into landmarks.
@@ -40,6 +42,9 @@ struct ChainEstimateParams {
 ///   along^2   = (q depth_noise)^2 / min(rows, 9) + (q slope lateral_noise_px)^2 + depth_bias_m^2
 /// with q = z^2 / (8 f b) the depth of a quantum and slope the near surface's, in quanta a column:
 /// on a side seen at a grazing angle a small error of the column is a large one of depth.
+///
+/// Where the near surface is round (ChainProfile) the landmark is a pole at the circle's centre, or
+/// none if the circle is wide: such an outline moves with the viewpoint.
 class ChainEstimator {
  public:
   /// Everything of a frame an estimate needs; must outlive the calls.
@@ -99,6 +104,11 @@ class ChainEstimator {
   Lines fit_lines() const;
   void trim(const Lines& lines, double smallest_m);
 
+  std::optional<RejectReason> look_for_round(const Scene& scene, std::span<const EdgePixel> chain,
+                                             const Middle& middle,
+                                             const ChainEstimateParams& params, Landmark& landmark);
+
+  ChainProfile profile_;
   std::vector<NearRow> near_rows_;  // of each pixel of the chain
   std::vector<EdgePoint> points_;   // likewise
 };

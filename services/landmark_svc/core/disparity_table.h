@@ -41,6 +41,9 @@ class DisparityTable {
   double depth_m(std::uint16_t step) const { return step * unit_m_; }
   double depth_from_quanta_m(double quanta) const { return quanta_m_ / quanta; }
 
+  /// 8 f b: disparity in quanta times depth.
+  double quanta_m() const { return quanta_m_; }
+
   /// Depth of one quantum at depth `z_m`.
   double quantum_m(double z_m) const { return z_m * z_m / quanta_m_; }
 

@@ -5,7 +5,13 @@
 namespace roomwise::landmark {
 
 /// Which physical thing a landmark is; the values are those of landmark_observation_t.
-enum class LandmarkKind : std::int8_t { kEdgeLeft = 1, kEdgeRight = 2 };
+enum class LandmarkKind : std::int8_t {
+  kEdgeLeft = 1,
+  kEdgeRight = 2,
+  kCreaseConvex = 3,
+  kCreaseConcave = 4,
+  kPole = 5,  ///< position is the centre
+};
 
 /// Colour of a surface apart from its brightness.
 struct ChromaSignature {
@@ -17,7 +23,7 @@ struct ChromaSignature {
   static constexpr double kNoColorVariance_log2 = 1e6;
 };
 
-/// A vertical edge seen in one frame, as a point in the floor plane of the robot frame.
+/// Something upright seen in one frame, as a point in the floor plane of the robot frame.
 struct Landmark {
   LandmarkKind kind = LandmarkKind::kEdgeLeft;
   double range_m = 0.0;      ///< > 0, from the robot frame's origin
@@ -33,6 +39,14 @@ struct Landmark {
   double u_px = 0.0;         ///< mean column of the edge line, half a pixel outside the near pixels
   double v_top_px = 0.0;
   double v_bottom_px = 0.0;
+  double column_slope = 0.0;  ///< of an edge: columns a row
+  double depth_m = 0.0;       ///< of an edge: mean depth of its near pixels
+  bool is_moving = false;     ///< on something that moves
 };
+
+/// Sets range, bearing and their covariance from a place in the robot frame and its covariance in
+/// x and y, by the Jacobian of the change to polar coordinates.
+void set_position(Landmark& landmark, const Eigen::Vector2d& p_robot_m,
+                  const Eigen::Matrix2d& covariance_m2);
 
 }  // namespace roomwise::landmark

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "services/landmark_svc/core/landmark_pieces.h"
+#include "services/landmark_svc/core/thin_things.h"
 
 namespace roomwise::landmark {
 namespace {
@@ -69,6 +70,30 @@ void LandmarkDetector::find_edges(const RgbdFrame& frame) {
 }
 
 void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
+  landmarks_.clear();
+  find_chains(frame);
+  if (!params_.is_thesis()) find_creases(frame);
+  // Joining compares all with all, so no more than the budget could ever use go into it.
+  const auto budget = static_cast<std::size_t>(params_.landmarks_max);
+  keep_best(landmarks_, 4 * budget, rejected_);
+  join_pieces(landmarks_, params_.join_gate_mahalanobis_sq, rejected_);
+  join_thin_things(landmarks_, frame.depth, table_, params_.thin_width_max_m);
+  drop_creases_at_edges(landmarks_, rejected_);
+  keep_best(landmarks_, budget, rejected_);
+}
+
+void LandmarkDetector::find_creases(const RgbdFrame& frame) {
+  const DepthImage& depth = frame.depth;
+  floor_ = fit_floor(depth, frame.depth_camera, table_, frame.T_robot_camera);
+  scan_.clear();
+  if (!floor_) return;
+  scan_.make(depth, frame.depth_camera, table_, *floor_, frame.T_robot_camera,
+             region_of_interest(params_.region, depth.width_px, depth.height_px), params_.scan);
+  crease_finder_.find(scan_, *floor_, frame.depth_camera, table_, depth.width_px, params_.crease,
+                      landmarks_, rejected_);
+}
+
+void LandmarkDetector::find_chains(const RgbdFrame& frame) {
   const DepthImage& depth = frame.depth;
   linker_.link(edges_, table_, depth.width_px, depth.height_px, params_.chain);
   const ChainEstimator::Scene scene{depth,  frame.depth_camera, frame.T_robot_camera, table_,
@@ -76,7 +101,6 @@ void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
   const double bend_max_px = params_.chain.bend_max_px * depth.width_px / 640.0;
   const auto rows_min =
       static_cast<std::size_t>(params_.estimate.rows_min_px * depth.height_px / 480.0);
-  landmarks_.clear();
   for (const EdgeChain& chain : linker_.chains()) {
     linker_.collect(chain, edges_, chain_pixels_);
     split_at_bends(chain_pixels_, bend_max_px, rows_min, pieces_);
@@ -84,11 +108,6 @@ void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
       try_chain(scene, std::span(chain_pixels_).subspan(piece.begin, piece.end - piece.begin));
     }
   }
-  // Joining compares all with all, so no more than the budget could ever use go into it.
-  const auto budget = static_cast<std::size_t>(params_.landmarks_max);
-  keep_best(landmarks_, 4 * budget, rejected_);
-  join_pieces(landmarks_, params_.join_gate_mahalanobis_sq, rejected_);
-  keep_best(landmarks_, budget, rejected_);
 }
 
 void LandmarkDetector::try_chain(const ChainEstimator::Scene& scene,

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -6,6 +7,7 @@
 #include "services/landmark_svc/core/chain_estimator.h"
 #include "services/landmark_svc/core/chain_split.h"
 #include "services/landmark_svc/core/color_weight.h"
+#include "services/landmark_svc/core/crease_finder.h"
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/edge_chains.h"
 #include "services/landmark_svc/core/jump_edges.h"
@@ -13,6 +15,7 @@
 #include "services/landmark_svc/core/landmark_params.h"
 #include "services/landmark_svc/core/reject_counts.h"
 #include "services/landmark_svc/core/slope_edges.h"
+#include "services/landmark_svc/core/virtual_scan.h"
 
 namespace roomwise::landmark {
 
@@ -24,13 +27,13 @@ enum class [[nodiscard]] DetectResult{
     kBadPose,    ///< T_robot_camera not finite
 };
 
-/// From one frame to its vertical-edge landmarks, O(pixels).
+/// From one frame to its landmarks, O(pixels).
 ///
 /// Edge pixels (JumpEdgeFinder, or SlopeEdgeFinder for method "thesis") are chained down the image
 /// (ChainLinker), cut where they bend, made landmarks of (ChainEstimator), and pieces of one edge
-/// are joined. Every frame stands alone: nothing is carried over but memory. Holds no clock, draws
-/// no random numbers: the same frame gives the same bits. Allocates nothing after the first frame
-/// of a size.
+/// are joined. Creases come from a virtual scan (VirtualScan, CreaseFinder). Every frame stands
+/// alone: nothing is carried over but memory. Holds no clock, draws no random numbers: the same
+/// frame gives the same bits. Allocates nothing after the first frame of a size.
 class LandmarkDetector {
  public:
   /// Throws std::runtime_error if a range or the two brightness limits are the wrong way round.
@@ -43,6 +46,10 @@ class LandmarkDetector {
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   /// Row by row, columns ascending.
   const std::vector<EdgePixel>& edges() const { return edges_; }
+  /// The slice of the view as a planar scanner would see it.
+  const VirtualScan& scan() const { return scan_; }
+  /// None if the camera's mounting makes no sense of a floor.
+  const std::optional<FloorView>& floor() const { return floor_; }
   const RejectCounts& rejected() const { return rejected_; }
 
   /// Weight of colour in force on this frame; depth's is 1 - alpha. 0 for method "disparity".
@@ -56,6 +63,8 @@ class LandmarkDetector {
  private:
   void reserve(const DepthImage& depth);
   void find_landmarks(const RgbdFrame& frame);
+  void find_chains(const RgbdFrame& frame);
+  void find_creases(const RgbdFrame& frame);
   void try_chain(const ChainEstimator::Scene& scene, std::span<const EdgePixel> chain);
 
   LandmarkParams params_;
@@ -65,6 +74,9 @@ class LandmarkDetector {
   SlopeEdgeFinder slope_finder_;
   ChainLinker linker_;
   ChainEstimator estimator_;
+  VirtualScan scan_;
+  CreaseFinder crease_finder_;
+  std::optional<FloorView> floor_;
   double alpha_ratio_ = 0.0;
   std::vector<EdgePixel> edges_;
   std::vector<EdgePixel> chain_pixels_;

@@ -4,6 +4,7 @@
 
 #include "services/landmark_svc/core/chain_estimator.h"
 #include "services/landmark_svc/core/color_weight.h"
+#include "services/landmark_svc/core/crease_finder.h"
 #include "services/landmark_svc/core/edge_chains.h"
 #include "services/landmark_svc/core/jump_edges.h"
 #include "services/landmark_svc/core/region_of_interest.h"
@@ -19,6 +20,7 @@ struct LandmarkParams {
   double disparity_focal_px = 585.0;       ///< focal length of the sensor's 640 px matching grid
   int landmarks_max = 64;                  ///< a frame, best scored first
   double join_gate_mahalanobis_sq = 9.21;  ///< chi-square, 2 degrees of freedom, 99 %
+  double thin_width_max_m = 0.25;          ///< two edges nearer to each other make one pole
   int edge_pixels_listed_max = 4000;       ///< in the message, evenly thinned; all are counted
   RegionParams region;
   JumpEdgeParams jump;
@@ -26,6 +28,8 @@ struct LandmarkParams {
   ColorWeightParams color;
   ChainParams chain;
   ChainEstimateParams estimate;
+  VirtualScanParams scan;
+  CreaseParams crease;
 
   bool is_thesis() const { return method == "thesis"; }
   /// 8 f b: disparity in quanta times depth in metres.
@@ -73,6 +77,24 @@ struct LandmarkParams {
     field("lateral_bias_m", estimate.lateral_bias_m, 1e-4, 1.0);
     field("depth_noise_quanta", estimate.depth_noise_quanta, 0.01, 100.0);
     field("depth_bias_m", estimate.depth_bias_m, 1e-4, 1.0);
+    field("round_arc_m", estimate.round.arc_m, 0.02, 1.0);
+    field("pole_radius_min_m", estimate.round.pole_radius_min_m, 0.005, 1.0);
+    field("pole_radius_max_m", estimate.round.pole_radius_max_m, 0.01, 2.0);
+    field("limb_radius_max_m", estimate.round.limb_radius_max_m, 0.01, 3.0);
+    field("round_bend_quanta", estimate.round.bend_quanta, 0.01, 10.0);
+    field("round_better_ratio", estimate.round.better_ratio, 0.01, 1.0);
+    field("thin_width_max_m", thin_width_max_m, 0.0, 1.0);
+    field("scan_height_low_m", scan.height_low_m, 0.0, 3.0);
+    field("scan_height_high_m", scan.height_high_m, 0.0, 3.0);
+    field("scan_row_step_px", scan.row_step_px, 1, 100);
+    field("scan_rows_min_px", scan.rows_min_px, 1.0, 480.0);
+    field("crease_side_min_m", crease.side_min_m, 0.01, 2.0);
+    field("crease_side_max_m", crease.side_max_m, 0.01, 2.0);
+    field("crease_angle_min_rad", crease.angle_min_rad, 0.1, 1.5);
+    field("crease_residual_max_m", crease.residual_max_m, 1e-4, 1.0);
+    field("crease_off_scan_max_m", crease.off_scan_max_m, 1e-3, 1.0);
+    field("crease_suppress_px", crease.suppress_px, 0.0, 640.0);
+    field("crease_position_bias_m", crease.position_bias_m, 1e-4, 1.0);
   }
 };
 

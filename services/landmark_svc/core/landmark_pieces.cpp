@@ -27,6 +27,11 @@ bool are_side_by_side(const Landmark& a, const Landmark& b) {
   return std::min(a.height_high_m, b.height_high_m) > std::max(a.height_low_m, b.height_low_m);
 }
 
+bool is_crease(const Landmark& landmark) {
+  return landmark.kind == LandmarkKind::kCreaseConvex ||
+         landmark.kind == LandmarkKind::kCreaseConcave;
+}
+
 Landmark average(const Landmark& a, const Landmark& b) {
   const Landmark& longer = a.rows >= b.rows ? a : b;
   const double b_share = static_cast<double>(b.rows) / (a.rows + b.rows);
@@ -65,6 +70,24 @@ void join_pieces(std::vector<Landmark>& landmarks, double gate_mahalanobis_sq,
       landmarks.erase(landmarks.begin() + static_cast<std::ptrdiff_t>(j));
       rejected.add(RejectReason::kLandmarkMerged);
     }
+  }
+}
+
+void drop_creases_at_edges(std::vector<Landmark>& landmarks, RejectCounts& rejected) {
+  constexpr double kApart_m = 0.06;
+  const auto is_at_edge = [&](const Landmark& crease) {
+    return is_crease(crease) &&
+           std::any_of(landmarks.begin(), landmarks.end(), [&](const Landmark& other) {
+             return !is_crease(other) && (position_m(other) - position_m(crease)).norm() < kApart_m;
+           });
+  };
+  for (std::size_t i = 0; i < landmarks.size();) {
+    if (!is_at_edge(landmarks[i])) {
+      ++i;
+      continue;
+    }
+    landmarks.erase(landmarks.begin() + static_cast<std::ptrdiff_t>(i));
+    rejected.add(RejectReason::kCreaseAtEdge);
   }
 }
 

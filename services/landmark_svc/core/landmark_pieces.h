@@ -14,6 +14,10 @@ namespace roomwise::landmark {
 void join_pieces(std::vector<Landmark>& landmarks, double gate_mahalanobis_sq,
                  RejectCounts& rejected);
 
+/// Drops creases within 6 cm of an edge or a pole: a box whose side is seen at a grazing angle
+/// shows its corner both ways, and the edge is seen from farther round.
+void drop_creases_at_edges(std::vector<Landmark>& landmarks, RejectCounts& rejected);
+
 /// Keeps the `most` best scored landmarks, then orders them from left to right.
 void keep_best(std::vector<Landmark>& landmarks, std::size_t most, RejectCounts& rejected);
 

@@ -1,0 +1,35 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "common/image/rgbd_frame.h"
+#include "services/landmark_svc/core/disparity_table.h"
+
+namespace roomwise::landmark {
+
+/// The floor as the camera sees it.
+struct FloorView {
+  Eigen::Vector3d down_camera;  ///< unit vector
+  double height_m = 0.0;        ///< of the camera above it
+  int points = 0;               ///< readings that speak for it; 0: as mounted
+};
+
+/// Corrects the mounted tilt and height of the camera by the floor in view, every frame: wheels
+/// sink, robots nod.
+///
+/// With down n, height H and Q = 8 f b the floor's disparity is linear in the image,
+///
+///   D(u, v) = g . (x, y, 1),   g = (Q / H) n,   x = (u - cx) / fx,   y = (v - cy) / fy,
+///
+/// and a reading D lies h = H (1 - g . (x, y, 1) / D) above it. Three rounds of least squares for g
+/// over readings within 10, 5, 3 cm and 2 quanta of the last plane, on a grid of about 100 columns.
+/// Noise is uniform in disparity, so all weigh alike; the mounting is one more measurement, with a
+/// sigma of 5 % of |g|: about 3 degrees or 5 % of the height, to keep what no floor in view tells.
+/// Falls back to the mounting with fewer than 80 readings or 15 degrees and more from it.
+///
+/// Nothing if the mounted camera is not between 5 cm and 3 m above the floor.
+std::optional<FloorView> fit_floor(const DepthImage& depth, const PinholeCamera& camera,
+                                   const DisparityTable& table,
+                                   const Eigen::Isometry3d& T_robot_camera);
+
+}  // namespace roomwise::landmark

@@ -1,0 +1,73 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/image/rgbd_frame.h"
+#include "services/landmark_svc/core/disparity_table.h"
+#include "services/landmark_svc/core/floor_fit.h"
+#include "services/landmark_svc/core/region_of_interest.h"
+
+namespace roomwise::landmark {
+
+/// Which part of the view makes the scan.
+struct VirtualScanParams {
+  double height_low_m = 0.10;   ///< lower edge of the slice, above the floor
+  double height_high_m = 0.60;  ///< upper edge
+  int row_step_px = 2;          ///< every how many rows are looked at, at 480 px image height
+  double rows_min_px = 4.0;     ///< rows that must agree on a column's distance, of those looked at
+};
+
+/// The nearest thing of one column within the slice.
+struct ScanPoint {
+  int u_px = 0;
+  Eigen::Vector2d p_robot_m{0.0, 0.0};
+  double along_m = 0.0;  ///< distance along the camera's horizontal viewing direction
+  int rows = 0;          ///< that agree
+  int v_top_px = 0;
+  int v_bottom_px = 0;
+};
+
+/// What a planar laser scanner in the camera's place would see, with tilt and floor taken out: for
+/// each column the mean of the nearest cluster of readings whose height is within the slice. What
+/// has no reading is left out: unknown, not free.
+///
+/// Readings are compared by Q / r, r the distance along the level viewing direction: equal for all
+/// heights of an upright surface, with the noise of one disparity quantum. A column keeps its three
+/// nearest clusters while the rows go by, so one pass over the image does.
+class VirtualScan {
+ public:
+  /// Replaces points(). Allocates only if the image got wider.
+  void make(const DepthImage& depth, const PinholeCamera& camera, const DisparityTable& table,
+            const FloorView& floor, const Eigen::Isometry3d& T_robot_camera,
+            const PixelRectangle& region, const VirtualScanParams& params);
+  void clear() { points_.clear(); }
+
+  /// Columns ascending.
+  const std::vector<ScanPoint>& points() const { return points_; }
+  /// Level viewing direction, robot frame, and where the camera is.
+  const Eigen::Vector2d& forward() const { return forward_; }
+  const Eigen::Vector2d& origin_m() const { return origin_m_; }
+
+ private:
+  struct Cluster {
+    float sum = 0.0F;  ///< of Q / r [quanta]
+    std::int32_t rows = 0;
+    std::int16_t v_top_px = 0;
+    std::int16_t v_bottom_px = 0;
+
+    float mean() const { return sum / static_cast<float>(rows); }
+  };
+  static constexpr std::size_t kClusters = 3;
+  using Clusters = std::array<Cluster, kClusters>;
+
+  static void add(Clusters& clusters, float quanta, std::int16_t v_px);
+
+  std::vector<Clusters> columns_;
+  std::vector<ScanPoint> points_;
+  Eigen::Vector2d forward_{1.0, 0.0};
+  Eigen::Vector2d origin_m_{0.0, 0.0};
+};
+
+}  // namespace roomwise::landmark
