@@ -44,6 +44,7 @@ void label_row(const std::uint16_t* steps, const float* slope_of_column, float s
 void GeometryLabels::label(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                            std::vector<std::uint8_t>& labels) {
   label_heights(frame, view, floor, labels);
+  standing_.mark(frame, view, floor, labels);
   walls_.mark(frame, view, floor, labels);
 }
 

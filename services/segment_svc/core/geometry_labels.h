@@ -7,6 +7,7 @@
 #include "services/segment_svc/core/camera_view.h"
 #include "services/segment_svc/core/floor_plane.h"
 #include "services/segment_svc/core/segment_params.h"
+#include "services/segment_svc/core/standing_surfaces.h"
 #include "services/segment_svc/core/wall_cells.h"
 
 namespace roomwise::segment {
@@ -30,6 +31,7 @@ class GeometryLabels {
                      std::vector<std::uint8_t>& labels);
 
   SegmentParams params_;
+  StandingSurfaces standing_;
   WallCells walls_;
   std::vector<float> slope_of_column_;  // part of a ray's rise that comes from its column
 };
