@@ -12,6 +12,27 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
+
+void dump(const LabelledFrame& seen, const Segmentation& result, int i) {
+  char name[100];
+  std::snprintf(name, 100, "/tmp/seg_%d.ppm", i);
+  FILE* f = std::fopen(name, "wb");
+  std::fprintf(f, "P6\n%d %d\n255\n", seen.frame.depth.width_px, seen.frame.depth.height_px);
+  for (std::size_t k = 0; k < result.labels.size(); ++k) {
+    unsigned char c[3];
+    const int l = result.labels[k], t = seen.truth[k];
+    const int g = (seen.frame.color.rgb[3*k]+seen.frame.color.rgb[3*k+1]+seen.frame.color.rgb[3*k+2])/3;
+    c[0]=c[1]=c[2]=(unsigned char)g;
+    if (l == kAccessible) { c[1] = (unsigned char)(std::min(255, g/2+110)); }
+    if (l == kWall) { c[2] = (unsigned char)(std::min(255, g/2+110)); }
+    if (l == kUnknown) { c[0]=c[1]=c[2]=(unsigned char)(g/4); }
+    if (t != kUnknown && t != kAccessible && l == kAccessible) { c[0]=255; c[1]=c[2]=0; }
+    if (t == kAccessible && l != kAccessible) { c[0]=255; c[1]=255; c[2]=0; }
+    std::fwrite(c, 1, 3, f);
+  }
+  std::fclose(f);
+}
+
 TEST(Explore, Table) {
   const char* scenario = std::getenv("SCN") ? std::getenv("SCN") : "living_room";
   SimulatedViews views(scenario);
@@ -29,6 +50,7 @@ TEST(Explore, Table) {
         const LabelledFrame& seen = views.look(pose, mount, claimed);
         segmenter.segment(seen.frame, result);
         all += count_floor(seen, result.labels);
+        if (std::getenv("H") && std::abs(height_m - std::atof(std::getenv("H"))) < 0.01 && tilt_deg == 0.0) { static int n = 0; dump(seen, result, n++); const auto c = count_floor(seen, result.labels); std::printf("%d %.4f %.4f\n", n-1, c.iou_ratio(), c.wrong_ratio()); }
         well += count_floor(seen, result.labels, Misread::kLeftOut);
       }
       std::printf("%8.2f %6.2f %6.1f   %8.4f %8.4f   %8.4f %8.4f\n", height_m, height_m > 0.6 ? 0.35 : 0.1, tilt_deg,
