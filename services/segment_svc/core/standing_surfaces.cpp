@@ -12,6 +12,7 @@ namespace {
 constexpr float kSame_quanta = 4.0F;  // a pixel against the surface above it
 constexpr float kRowsAveraged = 10.0F;
 constexpr float kRowsMin = 2.0F;
+constexpr float kFoot_quanta = 1.5F;  // in doubt, of two that differ by less, the surface
 
 struct FootRule {
   float rise;           // of the row
@@ -19,6 +20,7 @@ struct FootRule {
   float unit_m;
   float per_height_m;   // 1 / the camera's height
   float same_per_m;
+  float foot_per_m;
 };
 
 ROOMWISE_MULTIVERSION
@@ -36,16 +38,18 @@ void mark_row(const std::uint16_t* steps, const float* rise_of_column, const flo
     const int is_same = static_cast<int>(off <= same) & static_cast<int>(rows[u] > 0.0F);
     const int is_foot = static_cast<int>(label == kAccessible) & is_same &
                         static_cast<int>(rows[u] >= kRowsMin) &
-                        static_cast<int>(surface_per_m[u] > floor_per_m);
+                        static_cast<int>(surface_per_m[u] + rule.foot_per_m * per_ahead > floor_per_m);
     const int stands = static_cast<int>(label == kObstacle) | is_foot;
     // A foot says nothing new about its surface.
     const float grown = rows[u] + 1.0F;
     const float count = grown < kRowsAveraged ? grown : kRowsAveraged;
     const float mean = surface_per_m[u] + (per_m - surface_per_m[u]) / count;
     const float kept = is_foot != 0 ? surface_per_m[u] : mean;
-    surface_per_m[u] = is_same != 0 ? kept : per_m;
+    const float new_per_m = is_same != 0 ? kept : per_m;
+    surface_per_m[u] = steps[u] > 0 ? new_per_m : surface_per_m[u];  // a hole ends nothing
     const float kept_rows = is_same != 0 ? count : 1.0F;
-    rows[u] = stands != 0 ? kept_rows : 0.0F;
+    const float new_rows = stands != 0 ? kept_rows : 0.0F;
+    rows[u] = steps[u] > 0 ? new_rows : rows[u];
     labels[u] = static_cast<std::uint8_t>(is_foot != 0 ? static_cast<int>(kObstacle) : label);
   }
 }
@@ -72,7 +76,8 @@ void StandingSurfaces::mark(const RgbdFrame& frame, const CameraView& view, cons
               .ahead = d.y() * y + d.z(),
               .unit_m = static_cast<float>(view.unit_m()),
               .per_height_m = static_cast<float>(1.0 / floor.height_m),
-              .same_per_m = kSame_quanta * view.quantum_per_m()},
+              .same_per_m = kSame_quanta * view.quantum_per_m(),
+              .foot_per_m = kFoot_quanta * view.quantum_per_m()},
              width, surface_per_m_.data(), rows_.data(), labels.data() + v * width);
   }
 }

@@ -25,7 +25,9 @@ class SimulatedViews {
   explicit SimulatedViews(const std::string& scenario, double lamp_level = 1.0);
   explicit SimulatedViews(const simulator::Scene& scene);
 
-  simulator::Scene& scene() { return scene_; }
+  /// Of the last look: what an ideal sensor would see.
+  const simulator::KinectView& ideal() const { return kinect_.view(); }
+  const simulator::Scene& scene() const { return scene_; }
   void set_width(int width_px) { mode_ = {.width_px = width_px, .height_px = width_px * 3 / 4}; }
 
   /// Robot poses along the first path, `count` of them equally far apart in time.
