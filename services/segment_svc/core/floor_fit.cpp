@@ -10,7 +10,7 @@ namespace roomwise::segment {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr std::array<double, 6> kBands_m = {0.10, 0.10, 0.10, 0.08, 0.05, 0.03};
+constexpr std::array<double, 9> kBands_m = {0.10, 0.10, 0.10, 0.08, 0.05, 0.03, 0.02, 0.015, 0.012};
 
 /// Neighbouring grid points share much of their error (it is correlated over about 9 pixels, and
 /// lenses bend): this many count as one against the prior.
@@ -136,7 +136,7 @@ FloorPlane FloorFit::refine(const FloorPlane& start, double band_m) const {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   for (const FloorPoint& point : points_) {
     const auto [height_m, sigma_m] = height_of(point);
-    if (!(std::abs(height_m) <= band + 2.0F * sigma_m)) continue;
+    if (!(std::abs(height_m) <= band + 1.0F * sigma_m)) continue;
     const double weight = 1.0 / (kCorrelated * (1e-4 + static_cast<double>(sigma_m * sigma_m)));
     const Eigen::Vector3d jacobian(first_f.dot(point.p_camera_m), second_f.dot(point.p_camera_m),
                                    1.0);

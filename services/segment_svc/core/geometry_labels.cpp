@@ -39,12 +39,25 @@ void label_row(const std::uint16_t* steps, const float* slope_of_column, float s
   }
 }
 
+/// `above_wall` is 255 where the rows below have shown a wall.
+ROOMWISE_MULTIVERSION
+void doubt_row(std::size_t width, std::uint8_t* above_wall, std::uint8_t* labels) {
+  for (std::size_t u = 0; u < width; ++u) {
+    const int wall = labels[u] == kWall ? 255 : 0;
+    above_wall[u] = static_cast<std::uint8_t>(above_wall[u] | wall);
+    const int doubt = labels[u] == kAccessible ? above_wall[u] : 0;
+    labels[u] = static_cast<std::uint8_t>(labels[u] | doubt);  // kUnknown is 255
+  }
+}
+
 }  // namespace
 
 void GeometryLabels::label(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                            std::vector<std::uint8_t>& labels) {
   label_heights(frame, view, floor, labels);
+  standing_.mark(frame, view, floor, labels);
   walls_.mark(frame, view, floor, labels);
+  doubt_floor_above_walls(view, labels);
 }
 
 void GeometryLabels::label_heights(const RgbdFrame& frame, const CameraView& view,
@@ -64,6 +77,15 @@ void GeometryLabels::label_heights(const RgbdFrame& frame, const CameraView& vie
   for (std::size_t v = 0; v < height; ++v) {
     label_row(frame.depth.steps.data() + v * width, slope_of_column_.data(),
               n.y() * view.ray_y()[v] + n.z(), rule, width, labels.data() + v * width);
+  }
+}
+
+void GeometryLabels::doubt_floor_above_walls(const CameraView& view,
+                                             std::vector<std::uint8_t>& labels) {
+  const auto width = static_cast<std::size_t>(view.width_px());
+  above_wall_.assign(width, 0);
+  for (auto v = static_cast<std::size_t>(view.height_px()); v-- > 0;) {
+    doubt_row(width, above_wall_.data(), labels.data() + v * width);
   }
 }
 

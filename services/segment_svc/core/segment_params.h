@@ -12,7 +12,7 @@ struct SegmentParams {
 
   double baseline_m = 0.075;        ///< between projector and camera; Kinect and PrimeSense: 7.5 cm
   double range_max_m = 6.0;         ///< farther readings are unknown
-  double floor_tolerance_m = 0.03;  ///< a floor pixel's height may be off by this and its noise
+  double floor_tolerance_m = 0.02;  ///< a floor pixel's height may be off by this and its noise
   double drop_off_depth_m = 0.10;   ///< floor this far below the floor is an edge to fall off
   double camera_height_min_m = 0.10;  ///< where the floor is looked for
   double camera_height_max_m = 2.00;

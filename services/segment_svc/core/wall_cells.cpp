@@ -15,6 +15,7 @@ constexpr int kStride_px = 2;   // every second pixel each way says enough
 constexpr int kPixelsMin = 24;  // of 64
 constexpr float kResidual_quanta = 1.5F;
 constexpr float kOnWall_quanta = 4.0F;  // a pixel, against its own or a neighbour's plane
+constexpr float kFoot_quanta = 1.5F;   // between wall and floor that differ by less, the wall
 constexpr float kUpright = 0.2F;        // |cosine| between a wall's normal and up
 constexpr float kSameNormal = 0.95F;    // cosine: 18 degrees
 constexpr float kWidth_m = 0.5F;
@@ -37,7 +38,7 @@ void WallCells::mark(const RgbdFrame& frame, const CameraView& view, const Floor
     }
   }
   join(floor);
-  relabel(frame, view, labels);
+  relabel(frame, view, floor, labels);
 }
 
 WallCells::Cell WallCells::fit(const RgbdFrame& frame, const CameraView& view,
@@ -140,8 +141,10 @@ bool WallCells::is_wall_cell(int column, int row) const {
   return patch >= 0 && patch_is_wall_[static_cast<std::size_t>(patch)] != 0;
 }
 
-void WallCells::relabel(const RgbdFrame& frame, const CameraView& view,
+void WallCells::relabel(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                         std::vector<std::uint8_t>& labels) const {
+  // On the floor 1 / z = floor_m . ray.
+  const Eigen::Vector3f floor_m = (-floor.normal / floor.height_m).cast<float>();
   constexpr std::array<std::array<int, 2>, 5> kSelfThenBeside = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   for (int row = 0; row < rows_; ++row) {
@@ -149,29 +152,36 @@ void WallCells::relabel(const RgbdFrame& frame, const CameraView& view,
       for (const auto& [right, down] : kSelfThenBeside) {
         if (!is_wall_cell(column + right, row + down)) continue;
         const auto i = static_cast<std::size_t>((row + down) * columns_ + column + right);
-        relabel_cell(frame, view, column, row, cells_[i], labels);
+        relabel_cell(frame, view, column, row, cells_[i].m, floor_m, labels);
         if (right == 0 && down == 0) break;
       }
     }
   }
 }
 
-/// Turns the cell's obstacle pixels that lie on the plane into wall.
+/// Turns the cell's obstacle pixels that lie on the plane into wall, and floor pixels that lie on it
+/// too where it stands before the floor: the wall's foot.
 void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
-                             const Cell& plane, std::vector<std::uint8_t>& labels) const {
+                             const Eigen::Vector3f& plane_m, const Eigen::Vector3f& floor_m,
+                             std::vector<std::uint8_t>& labels) const {
   const int u_end = std::min((column + 1) * kCell_px, view.width_px());
   const int v_end = std::min((row + 1) * kCell_px, view.height_px());
   const auto unit_m = static_cast<float>(view.unit_m());
   const float off_max = kOnWall_quanta * quantum_per_m_;
+  const float behind_max = kFoot_quanta * quantum_per_m_;
   for (int v = row * kCell_px; v < v_end; ++v) {
     const float y = view.ray_y()[static_cast<std::size_t>(v)];
     const auto first = static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px());
     for (auto u = static_cast<std::size_t>(column * kCell_px); u < static_cast<std::size_t>(u_end);
          ++u) {
-      if (labels[first + u] != kObstacle) continue;
+      std::uint8_t& label = labels[first + u];
+      if (label != kObstacle && label != kAccessible) continue;
+      const Eigen::Vector3f ray(view.ray_x()[u], y, 1.0F);
       const float z_m = unit_m * static_cast<float>(frame.depth.steps[first + u]);
-      const float inverse_m = plane.m.x() * view.ray_x()[u] + plane.m.y() * y + plane.m.z();
-      if (std::abs(inverse_m * z_m - 1.0F) <= off_max * z_m) labels[first + u] = kWall;
+      const float wall_per_m = plane_m.dot(ray);
+      const bool is_on_wall = std::abs(wall_per_m * z_m - 1.0F) <= off_max * z_m;
+      const bool is_before_floor = wall_per_m + behind_max > floor_m.dot(ray);
+      if (is_on_wall && (label == kObstacle || is_before_floor)) label = kWall;
     }
   }
 }

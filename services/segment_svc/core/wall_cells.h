@@ -16,7 +16,7 @@ namespace roomwise::segment {
 /// coordinates, 1/z = m . (x, y, 1) with m the plane's normal over its distance; each cell gets
 /// that fit by least squares over its obstacle pixels. Neighbouring flat, upright cells of one
 /// plane are joined, and what is large enough is a wall; so are the obstacle pixels of the cells
-/// beside it that lie on its plane.
+/// beside it that lie on its plane, down to where the plane meets the floor.
 class WallCells {
  public:
   /// Turns obstacle labels of wall cells into wall labels.
@@ -37,10 +37,11 @@ class WallCells {
   bool is_wall(const FloorPlane& floor) const;
   bool are_one_plane(const Cell& a, const Cell& b) const;
   bool is_wall_cell(int column, int row) const;
-  void relabel(const RgbdFrame& frame, const CameraView& view,
+  void relabel(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                std::vector<std::uint8_t>& labels) const;
   void relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
-                    const Cell& plane, std::vector<std::uint8_t>& labels) const;
+                    const Eigen::Vector3f& plane_m, const Eigen::Vector3f& floor_m,
+                    std::vector<std::uint8_t>& labels) const;
 
   float quantum_per_m_ = 0.0F;
   int columns_ = 0;
