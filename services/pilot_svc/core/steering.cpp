@@ -1,0 +1,16 @@
+#include "services/pilot_svc/core/steering.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomwise::pilot {
+
+Motion steer(double bearing_rad, double way_ahead_m, double speed_mps, const PilotParams& params) {
+  const double turn_rate_radps = std::clamp(params.turn_gain_hz * bearing_rad,
+                                            -params.turn_rate_radps, params.turn_rate_radps);
+  if (std::abs(bearing_rad) > params.turn_on_spot_rad) return {0.0, turn_rate_radps};
+  const double limit_mps = std::max(params.slow_down_hz * way_ahead_m, 0.0);
+  return {std::min(speed_mps, limit_mps) * std::cos(bearing_rad), turn_rate_radps};
+}
+
+}  // namespace roomwise::pilot

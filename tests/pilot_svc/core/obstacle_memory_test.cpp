@@ -1,0 +1,77 @@
+#include "services/pilot_svc/core/obstacle_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace roomwise::pilot {
+namespace {
+
+constexpr Time kNow = time_from_utime(1'000'000'000);
+
+class ObstacleMemoryTest : public testing::Test {
+ protected:
+  bool see(double free_m, double unknown = 0.0) {
+    const std::vector<double> free{free_m};
+    const std::vector<double> ratio{unknown};
+    return memory_.see(now_, {}, {0.0, 0.02, free, ratio});
+  }
+  std::vector<Eigen::Vector2d> points(const Pose2& T_odom_robot = {}) {
+    std::vector<Eigen::Vector2d> result;
+    memory_.obstacles_round(now_, T_odom_robot, result);
+    return result;
+  }
+  PilotParams params_;
+  ObstacleMemory memory_{params_};
+  Time now_ = kNow;
+};
+
+TEST_F(ObstacleMemoryTest, WhatEndsTheFreeRangeStandsThere) {
+  ASSERT_TRUE(see(1.5));
+  ASSERT_EQ(points().size(), 1U);
+  EXPECT_NEAR(points()[0].x(), 1.525, 0.05);
+  EXPECT_NEAR(points({1.0, 0.0, std::acos(0.0)})[0].y(), -0.525, 0.05);
+}
+
+TEST_F(ObstacleMemoryTest, FloorSeenWhereItStoodOpensThePlace) {
+  ASSERT_TRUE(see(1.5));
+  ASSERT_TRUE(see(2.5));
+  ASSERT_EQ(points().size(), 1U);
+  EXPECT_NEAR(points()[0].x(), 2.525, 0.05);
+}
+
+TEST_F(ObstacleMemoryTest, FadesAfterItsTime) {
+  ASSERT_TRUE(see(1.5));
+  now_ += std::chrono::seconds(59);
+  EXPECT_EQ(points().size(), 1U);
+  now_ += std::chrono::seconds(2);
+  EXPECT_TRUE(points().empty());
+}
+
+TEST_F(ObstacleMemoryTest, SomethingTooNearToBeMeasuredIsGuessedOnlyWhereNothingIsRemembered) {
+  ASSERT_TRUE(see(0.0));
+  ASSERT_EQ(points().size(), 1U);
+  EXPECT_NEAR(points()[0].x(), 0.625, 0.05);
+  ASSERT_TRUE(see(0.0));
+  EXPECT_EQ(points().size(), 1U);
+}
+
+TEST_F(ObstacleMemoryTest, ABearingOutOfViewSaysNothing) {
+  ASSERT_TRUE(see(0.0, 1.0));
+  EXPECT_TRUE(points().empty());
+}
+
+TEST_F(ObstacleMemoryTest, NumbersThatAreNoViewAreRefused) {
+  EXPECT_FALSE(see(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(memory_.see(now_, {}, {}));
+  const std::vector<double> two{1.0, 1.0};
+  const std::vector<double> one{0.0};
+  EXPECT_FALSE(memory_.see(now_, {}, {0.0, 0.02, two, one}));
+  EXPECT_FALSE(memory_.see(now_, {}, {1e300, 0.02, one, one}));
+  EXPECT_TRUE(points().empty());
+}
+
+}  // namespace
+}  // namespace roomwise::pilot
