@@ -37,7 +37,7 @@ class GeometryLabels {
   SegmentParams params_;
   StandingSurfaces standing_;
   WallCells walls_;
-  std::vector<float> slope_of_column_;  // part of a ray's rise that comes from its column
+  std::vector<float> slope_of_column_;    // part of a ray's rise that comes from its column
   std::vector<std::uint8_t> above_wall_;  // by column
 };
 

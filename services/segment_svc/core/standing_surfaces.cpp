@@ -12,13 +12,13 @@ namespace {
 constexpr float kSame_quanta = 4.0F;  // a pixel against the surface above it
 constexpr float kRowsAveraged = 10.0F;
 constexpr float kRowsMin = 2.0F;
-constexpr float kFoot_quanta = 1.5F;  // in doubt, of two that differ by less, the surface
+constexpr float kFoot_quanta = 0.75F;  // in doubt, of two that differ by less, the surface
 
 struct FootRule {
-  float rise;           // of the row
+  float rise;  // of the row
   float ahead;
   float unit_m;
-  float per_height_m;   // 1 / the camera's height
+  float per_height_m;  // 1 / the camera's height
   float same_per_m;
   float foot_per_m;
 };
@@ -36,9 +36,9 @@ void mark_row(const std::uint16_t* steps, const float* rise_of_column, const flo
     const float off = std::abs(per_m - surface_per_m[u]);
     const float same = rule.same_per_m * per_ahead;
     const int is_same = static_cast<int>(off <= same) & static_cast<int>(rows[u] > 0.0F);
-    const int is_foot = static_cast<int>(label == kAccessible) & is_same &
-                        static_cast<int>(rows[u] >= kRowsMin) &
-                        static_cast<int>(surface_per_m[u] + rule.foot_per_m * per_ahead > floor_per_m);
+    const int is_foot =
+        static_cast<int>(label == kAccessible) & is_same & static_cast<int>(rows[u] >= kRowsMin) &
+        static_cast<int>(surface_per_m[u] + rule.foot_per_m * per_ahead > floor_per_m);
     const int stands = static_cast<int>(label == kObstacle) | is_foot;
     // A foot says nothing new about its surface.
     const float grown = rows[u] + 1.0F;
@@ -46,10 +46,10 @@ void mark_row(const std::uint16_t* steps, const float* rise_of_column, const flo
     const float mean = surface_per_m[u] + (per_m - surface_per_m[u]) / count;
     const float kept = is_foot != 0 ? surface_per_m[u] : mean;
     const float new_per_m = is_same != 0 ? kept : per_m;
-    surface_per_m[u] = steps[u] > 0 ? new_per_m : surface_per_m[u];  // a hole ends nothing
+    surface_per_m[u] = label != kUnknown ? new_per_m : surface_per_m[u];  // ends nothing
     const float kept_rows = is_same != 0 ? count : 1.0F;
     const float new_rows = stands != 0 ? kept_rows : 0.0F;
-    rows[u] = steps[u] > 0 ? new_rows : rows[u];
+    rows[u] = label != kUnknown ? new_rows : rows[u];
     labels[u] = static_cast<std::uint8_t>(is_foot != 0 ? static_cast<int>(kObstacle) : label);
   }
 }

@@ -12,8 +12,8 @@ namespace roomwise::segment {
 /// lie within the floor's tolerance.
 ///
 /// Along a pixel column a vertical surface keeps its distance X ahead, while the floor's grows with
-/// every row up; so 1/X, which carries the sensor's even disparity noise, stays level on the surface
-/// and is known in closed form on the floor,
+/// every row up; so 1/X, which carries the sensor's even disparity noise, stays level on the
+/// surface and is known in closed form on the floor,
 ///
 ///   1/X_floor = -(n . r) / (h (d . r)),   1/X = 1 / (z (d . r))
 ///
@@ -28,10 +28,10 @@ class StandingSurfaces {
             std::vector<std::uint8_t>& labels);
 
  private:
-  std::vector<float> rise_of_column_;   // part of n . r and of d . r that comes from the column
+  std::vector<float> rise_of_column_;  // part of n . r and of d . r that comes from the column
   std::vector<float> ahead_of_column_;
-  std::vector<float> surface_per_m_;    // mean 1/X of the obstacle right above
-  std::vector<float> rows_;             // how many rows it was averaged over, 0: none
+  std::vector<float> surface_per_m_;  // mean 1/X of the obstacle right above
+  std::vector<float> rows_;           // how many rows it was averaged over, 0: none
 };
 
 }  // namespace roomwise::segment

@@ -15,7 +15,7 @@ constexpr int kStride_px = 2;   // every second pixel each way says enough
 constexpr int kPixelsMin = 24;  // of 64
 constexpr float kResidual_quanta = 1.5F;
 constexpr float kOnWall_quanta = 4.0F;  // a pixel, against its own or a neighbour's plane
-constexpr float kFoot_quanta = 1.5F;   // between wall and floor that differ by less, the wall
+constexpr float kFoot_quanta = 0.75F;   // between wall and floor that differ by less, the wall
 constexpr float kUpright = 0.2F;        // |cosine| between a wall's normal and up
 constexpr float kSameNormal = 0.95F;    // cosine: 18 degrees
 constexpr float kWidth_m = 0.5F;
@@ -145,6 +145,9 @@ void WallCells::relabel(const RgbdFrame& frame, const CameraView& view, const Fl
                         std::vector<std::uint8_t>& labels) const {
   // On the floor 1 / z = floor_m . ray.
   const Eigen::Vector3f floor_m = (-floor.normal / floor.height_m).cast<float>();
+  const auto relabel = [&](int column, int row, const Eigen::Vector3f& plane_m) {
+    relabel_cell(frame, view, column, row, plane_m, floor_m, labels);
+  };
   constexpr std::array<std::array<int, 2>, 5> kSelfThenBeside = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   for (int row = 0; row < rows_; ++row) {
@@ -152,15 +155,31 @@ void WallCells::relabel(const RgbdFrame& frame, const CameraView& view, const Fl
       for (const auto& [right, down] : kSelfThenBeside) {
         if (!is_wall_cell(column + right, row + down)) continue;
         const auto i = static_cast<std::size_t>((row + down) * columns_ + column + right);
-        relabel_cell(frame, view, column, row, cells_[i].m, floor_m, labels);
+        relabel(column, row, cells_[i].m);
         if (right == 0 && down == 0) break;
       }
     }
+    close_holes(row, relabel);
   }
 }
 
-/// Turns the cell's obstacle pixels that lie on the plane into wall, and floor pixels that lie on it
-/// too where it stands before the floor: the wall's foot.
+/// Between cells of one wall, what lies on its plane is that wall: so the strip below a mirror is.
+template <class Relabel>
+void WallCells::close_holes(int row, const Relabel& relabel) const {
+  int before = -1;  // column of the last wall cell
+  for (int column = 0; column < columns_; ++column) {
+    if (!is_wall_cell(column, row)) continue;
+    const Cell& wall = cells_[static_cast<std::size_t>(row * columns_ + column)];
+    const bool is_same =
+        before >= 0 &&
+        cells_[static_cast<std::size_t>(row * columns_ + before)].patch == wall.patch;
+    for (int hole = before + 1; is_same && hole < column; ++hole) relabel(hole, row, wall.m);
+    before = column;
+  }
+}
+
+/// Turns the cell's obstacle pixels that lie on the plane into wall, and floor pixels that lie on
+/// it too where it stands before the floor: the wall's foot.
 void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
                              const Eigen::Vector3f& plane_m, const Eigen::Vector3f& floor_m,
                              std::vector<std::uint8_t>& labels) const {
@@ -181,7 +200,8 @@ void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int
       const float wall_per_m = plane_m.dot(ray);
       const bool is_on_wall = std::abs(wall_per_m * z_m - 1.0F) <= off_max * z_m;
       const bool is_before_floor = wall_per_m + behind_max > floor_m.dot(ray);
-      if (is_on_wall && (label == kObstacle || is_before_floor)) label = kWall;
+      if (!is_on_wall || (label == kAccessible && !is_before_floor)) continue;
+      label = kWall;
     }
   }
 }

@@ -39,6 +39,8 @@ class WallCells {
   bool is_wall_cell(int column, int row) const;
   void relabel(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                std::vector<std::uint8_t>& labels) const;
+  template <class Relabel>
+  void close_holes(int row, const Relabel& relabel) const;
   void relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
                     const Eigen::Vector3f& plane_m, const Eigen::Vector3f& floor_m,
                     std::vector<std::uint8_t>& labels) const;

@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <vector>
 
 #include "services/segment_svc/core/segmenter.h"
 #include "tests/support/shared_data.h"
@@ -76,6 +78,7 @@ RgbdFrame read_frame(int number, const Eigen::Isometry3d& T_robot_camera) {
 struct FloorCounts {
   double right = 0.0;
   double missed = 0.0;
+  double missed_as_standing = 0.0;  // of those, called obstacle or wall
   double wrong = 0.0;
   double other = 0.0;
   double iou() const { return right / (right + missed + wrong); }
@@ -85,32 +88,53 @@ void add(const std::vector<std::uint8_t>& labels, const cv::Mat1b& mask, FloorCo
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const bool is_called = labels[i] == kAccessible;
     if (mask.data[i] == 255) ++(is_called ? counts.right : counts.missed);
+    const bool stands = labels[i] == kObstacle || labels[i] == kWall;
+    if (mask.data[i] == 255 && stands) ++counts.missed_as_standing;
     if (mask.data[i] == 0) ++(is_called ? counts.wrong : counts.other);
   }
 }
 
-FloorCounts score(double claimed_height_m) {
-  const Mounting mounting(claimed_height_m);
-  Segmenter segmenter(SegmentParams{});
+/// One segmenter that is told its camera starts at this height.
+struct Claim {
+  explicit Claim(double claimed_height_m) : height_m(claimed_height_m), mounting(height_m) {}
+
+  double height_m;
+  Mounting mounting;
+  Segmenter segmenter{SegmentParams{}};
   Segmentation result;
   FloorCounts counts;
+};
+
+/// Each image is read once for all of them.
+void score(std::vector<Claim>& claims) {
   for (int i = 0; i < kFrames; ++i) {
-    segmenter.segment(read_frame(i, mounting(i)), result);
-    EXPECT_TRUE(result.floor.trusted) << i;
-    if (std::filesystem::exists(file(i, "floor.png"))) {
-      add(result.labels, cv::imread(file(i, "floor.png").string(), cv::IMREAD_GRAYSCALE), counts);
+    RgbdFrame frame = read_frame(i, Eigen::Isometry3d::Identity());
+    const bool has_mask = std::filesystem::exists(file(i, "floor.png"));
+    const cv::Mat1b mask =
+        has_mask ? cv::imread(file(i, "floor.png").string(), cv::IMREAD_GRAYSCALE) : cv::Mat1b();
+    for (Claim& claim : claims) {
+      frame.T_robot_camera = claim.mounting(i);
+      claim.segmenter.segment(frame, claim.result);
+      EXPECT_TRUE(claim.result.floor.trusted) << i;
+      if (has_mask) add(claim.result.labels, mask, claim.counts);
     }
   }
-  return counts;
 }
 
 TEST(RecordedFrames, FloorIsFoundWhateverHeightIsClaimed) {
   ROOMWISE_NEED_DATA(kRecording);
-  for (const double claimed_height_m : {0.3, 1.2, 1.9}) {
-    const FloorCounts counts = score(claimed_height_m);
-    RecordProperty("floor_iou", std::to_string(counts.iou()));
-    EXPECT_GE(counts.iou(), 0.98) << claimed_height_m;
-    EXPECT_LE(counts.wrong / (counts.wrong + counts.other), 0.002) << claimed_height_m;
+  std::vector<Claim> claims;
+  for (const double claimed_height_m : {0.3, 1.2, 1.9}) claims.emplace_back(claimed_height_m);
+  score(claims);
+  for (const Claim& claim : claims) {
+    const FloorCounts& counts = claim.counts;
+    const double wrong_ratio = counts.wrong / (counts.wrong + counts.other);
+    std::printf(
+        "claimed %.1f m: floor IoU %.4f, other called floor %.4f, floor called standing %.4f\n",
+        claim.height_m, counts.iou(), wrong_ratio,
+        counts.missed_as_standing / (counts.right + counts.missed));
+    EXPECT_GE(counts.iou(), 0.98) << claim.height_m;
+    EXPECT_LE(wrong_ratio, 0.002) << claim.height_m;
   }
 }
 

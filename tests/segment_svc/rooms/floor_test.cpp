@@ -45,8 +45,10 @@ class FloorInRooms : public testing::TestWithParam<std::string> {};
 
 TEST_P(FloorInRooms, IsFoundFromAnyHeightWhateverTheTilt) {
   SimulatedViews views(GetParam());
-  std::printf("%s: camera height, unknown tilt; floor IoU, other called floor;\n"
-              "  the same without pixels whose reading is of another surface\n", GetParam().c_str());
+  std::printf(
+      "%s: camera height, unknown tilt; floor IoU, other called floor;\n"
+      "  the same without pixels whose reading is of another surface\n",
+      GetParam().c_str());
   for (const double height_m : {0.25, 0.4, 0.7, 1.0, 1.4}) {
     double level_iou_ratio = 0.0;
     for (const double tilt_deg : {0.0, 2.0, 5.0}) {

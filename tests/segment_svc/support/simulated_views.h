@@ -25,6 +25,7 @@ class SimulatedViews {
   explicit SimulatedViews(const std::string& scenario, double lamp_level = 1.0);
   explicit SimulatedViews(const simulator::Scene& scene);
 
+  const LabelledFrame& last() const { return seen_; }
   /// Of the last look: what an ideal sensor would see.
   const simulator::KinectView& ideal() const { return kinect_.view(); }
   const simulator::Scene& scene() const { return scene_; }
