@@ -14,7 +14,7 @@ struct MrclamImport {
   double range_sigma_m = 0.10;
   double range_sigma_per_m = 0.03;  ///< more of it a metre of range
   double bearing_sigma_rad = 0.03;
-  double odometry_delay_s = 0.25;  ///< the logged speeds are commands; the robot follows later
+  double odometry_delay_s = 0.25;   ///< the logged speeds are commands; the robot follows later
   bool unknown_identities = false;  ///< leave it to the filter to tell landmarks apart
 };
 
@@ -22,10 +22,11 @@ struct MrclamImport {
 /// Robot{N}_{Odometry,Measurement,Groundtruth}.dat, Barcodes.dat, Landmark_Groundtruth.dat.
 ///
 /// ODOMETRY: a record's speed and turn rate hold until the next record, whose time, plus the delay,
-/// is the message's. LANDMARKS: all measurements of one instant, identity = subject number; sightings of
-/// other robots (subjects 1-5) and unknown barcodes are dropped and counted. TRUTH at its own rate,
-/// with the true landmarks once a second. Events in order of time; at equal times ODOMETRY,
-/// LANDMARKS, TRUTH. Says on `notes` what it assumed. The same folder gives the same bytes.
+/// is the message's. LANDMARKS: all measurements of one instant, identity = subject number;
+/// sightings of other robots (subjects 1-5) and unknown barcodes are dropped and counted. TRUTH at
+/// its own rate, with the true landmarks once a second. Events in order of time; at equal times
+/// ODOMETRY, LANDMARKS, TRUTH. Says on `notes` what it assumed. The same folder gives the same
+/// bytes.
 ///
 /// Throws std::runtime_error naming the file (and line) at fault; `out` then stays as it was.
 void import_mrclam(const MrclamImport& import, std::ostream& notes);

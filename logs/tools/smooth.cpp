@@ -137,7 +137,7 @@ void add_sightings(const Drive& drive, SmoothProblem& problem) {
 SmoothProblem problem_of(const Drive& drive) {
   SmoothProblem problem;
   problem.calibration.value << drive.last_pose.distance_scale_ratio - 1.0,
-      drive.last_pose.turn_scale_ratio - 1.0, drive.last_pose.turn_per_distance_radpm;
+      drive.last_pose.turn_scale_ratio - 1.0, drive.last_pose.turn_per_distance_rad_per_m;
   for (const std::int64_t utime : node_times(drive)) {
     const auto pose = pose_at(drive.poses, utime);
     if (!pose) continue;
@@ -161,7 +161,7 @@ pose_t smoothed_pose(const Drive& drive, const SmoothProblem& problem, std::size
   message.heading_rad = problem.poses[node].heading_rad;
   message.distance_scale_ratio = 1.0 + problem.calibration.distance_ratio();
   message.turn_scale_ratio = 1.0 + problem.calibration.turn_ratio();
-  message.turn_per_distance_radpm = problem.calibration.turn_per_distance_radpm();
+  message.turn_per_distance_rad_per_m = problem.calibration.turn_per_distance_rad_per_m();
   return message;
 }
 
@@ -202,7 +202,7 @@ void smooth_log(const SmoothOptions& options, std::ostream& notes) {
              report.converged ? "converged" : "NOT converged");
   fmt::print(notes, "distance scale {:.4f}\nturn scale {:.4f}\nturn per distance {:.4f} rad/m\n",
              1.0 + problem.calibration.distance_ratio(), 1.0 + problem.calibration.turn_ratio(),
-             problem.calibration.turn_per_distance_radpm());
+             problem.calibration.turn_per_distance_rad_per_m());
   write_smoothed(options, drive, problem);
 }
 

@@ -208,10 +208,10 @@ pose_t example() {
           .landmark_noise_ratio = 1.5,
           .distance_scale_ratio = 0.98,
           .turn_scale_ratio = 1.01,
-          .turn_per_distance_radpm = -0.005,
+          .turn_per_distance_rad_per_m = -0.005,
           .distance_scale_sigma_ratio = 0.006,
           .turn_scale_sigma_ratio = 0.007,
-          .turn_per_distance_sigma_radpm = 0.008,
+          .turn_per_distance_sigma_rad_per_m = 0.008,
           .state = pose_t::STATE_TRACKING};
 }
 

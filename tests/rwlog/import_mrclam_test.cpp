@@ -33,7 +33,7 @@ class ImportMrclam : public testing::Test {
                "100.000 1 2 3\n100.500 1 2 4\n101.000 1 2 -3\n103.000 1 2 0\n");
   }
 
-  std::string import(MrclamImport options = {}) {
+  std::string import(MrclamImport options = {.odometry_delay_s = 0.0}) {
     options.folder = folder_;
     options.out = out_;
     std::ostringstream notes;
@@ -45,6 +45,13 @@ class ImportMrclam : public testing::Test {
   std::filesystem::path folder_ = scratch_.path() / "mrclam";
   std::filesystem::path out_ = scratch_.path() / "out.lcmlog";
 };
+
+TEST_F(ImportMrclam, TheRobotFollowsItsRecordLater) {
+  MrclamImport options;
+  options.odometry_delay_s = 0.25;
+  import(options);
+  EXPECT_EQ(messages_on(out_, channels::kOdometry).at(0).utime, 102'250'000);
+}
 
 TEST_F(ImportMrclam, SpeedHoldsUntilTheNextRecord) {
   import();

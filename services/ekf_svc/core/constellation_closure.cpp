@@ -116,7 +116,8 @@ bool ConstellationClosure::is_sure(std::size_t pair) {
     if (i != pair) static_cast<void>(gate_.push(accepted_[i].residual));
   }
   if (gate_.cost(accepted_[pair].residual) >= chi_square_quantile(2, kNormal99)) return false;
-  const auto& [recent, old] = pairs_[pair];
+  const std::size_t recent = pairs_[pair].recent;
+  const std::size_t old = pairs_[pair].old;
   const auto rivals = [&](std::size_t other_recent, std::size_t other_old) {
     if (!may_be_one(filter_->landmark(other_recent), filter_->landmark(other_old))) return false;
     const Residual residual = filter_->equality_residual(other_recent, other_old, kSigma_m);

@@ -16,7 +16,7 @@ struct EkfParams {
   /// Learn scale errors of distance and turn, and a steady pull to one side, from landmarks.
   bool self_calibration = true;
   double calibration_sigma_ratio = 0.05;  ///< what to expect of either scale before the first turn
-  double calibration_sigma_radpm = 0.02;  ///< and of the pull, turn per distance
+  double calibration_sigma_rad_per_m = 0.02;  ///< and of the pull, turn per distance
   double calibration_drift_ratio =
       0.001;  ///< wander of a scale over a metre of way, per root metre
 
@@ -50,7 +50,7 @@ struct EkfParams {
     field("odometry_noise_ratio", odometry_noise_ratio, 1e-3, 1e3);
     field("self_calibration", self_calibration);
     field("calibration_sigma_ratio", calibration_sigma_ratio, 0.0, 0.5);
-    field("calibration_sigma_radpm", calibration_sigma_radpm, 0.0, 1.0);
+    field("calibration_sigma_rad_per_m", calibration_sigma_rad_per_m, 0.0, 1.0);
     field("calibration_drift_ratio", calibration_drift_ratio, 0.0, 0.1);
     field("gap_distance_sigma_mps", gap_distance_sigma_mps, 0.0, 10.0);
     field("gap_turn_sigma_radps", gap_turn_sigma_radps, 0.0, 10.0);

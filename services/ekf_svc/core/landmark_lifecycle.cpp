@@ -12,7 +12,9 @@ constexpr double kBehind_rad = 0.035;  // as seen past a thin thing's edge
 constexpr double kBehind_m = 0.3;
 constexpr double kSigmaMax_m = 0.1;  // of the landmark's place relative to the robot
 
-bool counts_as_seen(Verdict verdict) { return verdict == Verdict::kMatched || verdict == Verdict::kHeld; }
+bool counts_as_seen(Verdict verdict) {
+  return verdict == Verdict::kMatched || verdict == Verdict::kHeld;
+}
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kLocalReach_m = 15.0;               // farther landmarks are never in view
+constexpr double kLocalReach_m = 15.0;          // farther landmarks are never in view
 constexpr double kSigmaPerSpacing = 1.0 / 6.0;  // 3 sigma reach half way to the next landmark
 constexpr double kWellKnownSigmaMax_m = 0.5;
 constexpr JointCompatibility::Limits kLocalLimits{.normal_quantile = kNormal99, .nodes = 3000};

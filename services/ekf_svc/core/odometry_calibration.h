@@ -15,7 +15,7 @@ struct OdometryCalibration {
 
   double distance_ratio() const { return value(0); }
   double turn_ratio() const { return value(1); }
-  double turn_per_distance_radpm() const { return value(2); }
+  double turn_per_distance_rad_per_m() const { return value(2); }
 
   /// The true twist (turn, forward, leftward) from the reported one. Shape 3 x 3.
   Eigen::Matrix3d correction() const {

@@ -151,7 +151,8 @@ std::optional<Relocaliser::Place> Relocaliser::find(const MapSnapshot& local) co
     middle += local.positions_m[l] / static_cast<double>(sure.size());
   }
   const auto enough = std::max(
-      kPairsMin, static_cast<std::size_t>(std::ceil(kFittingShareMin * static_cast<double>(sure.size()))));
+      kPairsMin,
+      static_cast<std::size_t>(std::ceil(kFittingShareMin * static_cast<double>(sure.size()))));
 
   std::optional<Place> best;
   std::size_t rival_pairs = 0;

@@ -57,7 +57,7 @@ Slam::Slam(const EkfParams& params)
       twins_(filter_) {
   if (params.self_calibration) {
     filter_.free_calibration({params.calibration_sigma_ratio, params.calibration_sigma_ratio,
-                              params.calibration_sigma_radpm});
+                              params.calibration_sigma_rad_per_m});
   }
   candidates_.reserve(kSightingsExpected);
   claimed_by_.resize(filter_.landmark_budget());

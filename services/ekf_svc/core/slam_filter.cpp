@@ -13,8 +13,7 @@ namespace {
 Landmark united(const Landmark& old, const Landmark& recent) {
   constexpr std::int32_t kCountMax = 1'000'000'000;
   Landmark both = old;
-  both.times_seen =
-      std::min(old.times_seen, kCountMax) + std::min(recent.times_seen, kCountMax);
+  both.times_seen = std::min(old.times_seen, kCountMax) + std::min(recent.times_seen, kCountMax);
   both.signature = fused(old.signature, recent.signature);
   both.last_seen_travel_m = std::max(old.last_seen_travel_m, recent.last_seen_travel_m);
   both.refusals = 0;

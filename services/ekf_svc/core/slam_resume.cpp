@@ -34,7 +34,7 @@ void Slam::begin_anew() {
   lifecycle_.clear();
   if (!params_.self_calibration) return;
   filter_.free_calibration({params_.calibration_sigma_ratio, params_.calibration_sigma_ratio,
-                            params_.calibration_sigma_radpm});
+                            params_.calibration_sigma_rad_per_m});
 }
 
 bool Slam::resume(const MapSnapshot& map, const Relocaliser::Place& place) {
