@@ -16,7 +16,9 @@ void add_subcommands(CLI::App& rwlog) {
   add_import_7scenes(import);
   add_import_tum(import);
   add_import_mrclam(import);
-  CLI::App& convert = *rwlog.add_subcommand("export", "Makes text, a picture or another format of a log.");
+  add_import_fakenect(import);
+  CLI::App& convert =
+      *rwlog.add_subcommand("export", "Makes text, a picture or another format of a log.");
   convert.require_subcommand(1);
   add_export_trajectory(convert);
   add_export_map_png(convert);

@@ -12,6 +12,7 @@ namespace roomwise {
 namespace {
 
 void set_color(const JpegImage& color, kinect_frame_t& message) {
+  if (color.bytes.empty()) return;  // a message starts without
   message.color_encoding = kinect_frame_t::COLOR_JPEG;
   message.color_width_px = color.width_px;
   message.color_height_px = color.height_px;
@@ -46,7 +47,7 @@ void RgbdLog::write_frame(const ImportedFrame& frame, const std::filesystem::pat
   encoder_.encode_depth(frame.depth, kinect_frame_t::DEPTH_PDZ16, message);
   set_color(frame.color, message);
   encode_depth_camera(frame.camera, message);
-  encode_color_camera(frame.camera, message);
+  if (!frame.color.bytes.empty()) encode_color_camera(frame.camera, message);
   encode_pose(frame.T_robot_camera, message);
   const FrameResult result = check_.decode(message, decoded_);
   if (result != FrameResult::kOk) {

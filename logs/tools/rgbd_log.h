@@ -18,7 +18,7 @@ struct ImportedFrame {
   std::int64_t device_time_us = 0;
   DepthImage depth;
   bool depth_registered = false;  ///< depth pixels lie on the colour image's pixels
-  JpegImage color;
+  JpegImage color;                ///< without bytes: none
   PinholeCamera camera;
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
 };

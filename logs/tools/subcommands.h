@@ -12,6 +12,7 @@ void add_cut(CLI::App& parent);
 void add_import_7scenes(CLI::App& parent);
 void add_import_tum(CLI::App& parent);
 void add_import_mrclam(CLI::App& parent);
+void add_import_fakenect(CLI::App& parent);
 void add_export_trajectory(CLI::App& parent);
 void add_export_map_png(CLI::App& parent);
 void add_export_landmarks_png(CLI::App& parent);
