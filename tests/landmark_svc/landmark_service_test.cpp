@@ -85,7 +85,9 @@ TEST(LandmarkService, SaysWhatItFoundAndWhatWasInForce) {
     EXPECT_EQ(landmark.moving, 0);
     const bool is_crease = landmark.kind == landmark_observation_t::KIND_CREASE_CONVEX ||
                            landmark.kind == landmark_observation_t::KIND_CREASE_CONCAVE;
-    if (!is_crease) EXPECT_LT(landmark.chroma_variance_log2, 0.05);
+    if (!is_crease) {
+      EXPECT_LT(landmark.chroma_variance_log2, 0.05);
+    }
   }
 }
 

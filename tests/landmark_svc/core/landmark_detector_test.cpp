@@ -233,7 +233,9 @@ TEST(LandmarkDetector, DarknessTakesTheColorButNoLandmark) {
   ASSERT_EQ(lit.size(), dark.size());
   for (std::size_t i = 0; i < lit.size(); ++i) {
     EXPECT_EQ(lit[i].range_m, dark[i].range_m);
-    if (!is_crease(lit[i])) EXPECT_LT(lit[i].chroma.variance_log2, 0.05);
+    if (!is_crease(lit[i])) {
+      EXPECT_LT(lit[i].chroma.variance_log2, 0.05);
+    }
     EXPECT_EQ(dark[i].chroma.variance_log2, ChromaSignature::kNoColorVariance_log2);
   }
 }
