@@ -25,7 +25,7 @@ inline constexpr Channel<landmark_list_t> kLandmarks{"LANDMARKS", "<= 30", "land
 inline constexpr Channel<segmentation_t> kSegments{"SEGMENTS", "<= 30", "segment_svc", "safety_svc, pilot_svc, viewer"};
 inline constexpr Channel<segment_training_t> kSegmentTrain{"SEGMENT_TRAIN", "on event", "viewer, rwlog", "segment_svc"};
 inline constexpr Channel<create_state_t> kCreateState{"CREATE_STATE", "66", "create_driver", "safety_svc, viewer"};
-inline constexpr Channel<odometry_t> kOdometry{"ODOMETRY", "66", "create_driver", "ekf_svc, safety_svc, pilot_svc, viewer"};
+inline constexpr Channel<odometry_t> kOdometry{"ODOMETRY", "66", "create_driver", "landmark_svc, ekf_svc, safety_svc, pilot_svc, viewer"};
 inline constexpr Channel<velocity_command_t> kVelCmd{"VEL_CMD", "50", "safety_svc", "create_driver"};
 inline constexpr Channel<velocity_request_t> kVelRequest{"VEL_REQUEST", "10 to 20", "pilot_svc, viewer", "safety_svc"};
 inline constexpr Channel<safety_state_t> kSafetyState{"SAFETY_STATE", "10 + on change", "safety_svc", "all"};

@@ -48,7 +48,8 @@ struct LandmarkScore {
 /// Matches each sighting to the nearest true landmark it may be: within 0.1 m + 2 % of its range,
 /// and of a fitting kind. A corner that protrudes shows as an edge on either side from where one
 /// face is in view, as a convex crease from where both are; an edge may also be a pole's whose
-/// other side is hidden; a pole may be a thin board of something larger. Frames without a true pose are left out.
+/// other side is hidden; a pole may be a thin board of something larger. Frames without a true pose
+/// are left out.
 LandmarkScore score_landmarks(const Recording& recording);
 
 }  // namespace roomwise

@@ -26,6 +26,17 @@ void list_edges(const LandmarkDetector& detector, landmark_list_t& message) {
   }
 }
 
+void list_scan(const LandmarkDetector& detector, landmark_list_t& message) {
+  const auto& points = detector.scan().points();
+  message.scan_count = static_cast<std::int32_t>(points.size());
+  message.scan_x_m.resize(points.size());
+  message.scan_y_m.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    message.scan_x_m[i] = static_cast<float>(points[i].p_robot_m.x());
+    message.scan_y_m[i] = static_cast<float>(points[i].p_robot_m.y());
+  }
+}
+
 void list_rejections(const LandmarkDetector& detector, landmark_list_t& message) {
   message.rejection_count = static_cast<std::int32_t>(landmark::kRejectReasons);
   message.rejections.resize(landmark::kRejectReasons);
@@ -53,6 +64,7 @@ landmark_observation_t to_message(const landmark::Landmark& landmark) {
   landmark_observation_t message{};
   message.identity = -1;
   message.kind = static_cast<std::int8_t>(landmark.kind);
+  message.moving = landmark.is_moving ? 1 : 0;
   message.range_m = landmark.range_m;
   message.bearing_rad = landmark.bearing_rad;
   message.covariance_range_range_m2 = landmark.covariance(0, 0);
@@ -84,6 +96,7 @@ void fill_message(const LandmarkDetector& detector, const RgbdFrame& frame,
   }
   message.count = static_cast<std::int32_t>(message.landmarks.size());
   list_edges(detector, message);
+  list_scan(detector, message);
   list_rejections(detector, message);
   state_what_was_in_force(detector, message);
 }

@@ -70,19 +70,24 @@ TEST(LandmarkService, SaysWhatItFoundAndWhatWasInForce) {
   EXPECT_EQ(list.frame_seq, 5);
   EXPECT_EQ(list.width_px, 640);
   EXPECT_EQ(list.height_px, 480);
-  EXPECT_EQ(list.count, 4);
+  EXPECT_GE(list.count, 3);  // two edges of the box and the pole
+  EXPECT_GT(list.scan_count, 500);
   EXPECT_EQ(list.alpha_ratio, 0.0);
   EXPECT_EQ(list.beta_ratio, 1.0);
   EXPECT_EQ(list.threshold_mm_per_px, 0.0);
   EXPECT_EQ(list.threshold_quanta, 4.0);
   EXPECT_EQ(list.range_min_m, 0.6);
   EXPECT_EQ(list.range_max_m, 3.81);
-  ASSERT_EQ(list.rejection_count, 11);
+  ASSERT_EQ(list.rejection_count, 16);
   EXPECT_EQ(list.rejections[0].name, "edge_out_of_range");
   for (const auto& landmark : list.landmarks) {
     EXPECT_EQ(landmark.identity, -1);
     EXPECT_EQ(landmark.moving, 0);
-    EXPECT_LT(landmark.chroma_variance_log2, 0.05);
+    const bool is_crease = landmark.kind == landmark_observation_t::KIND_CREASE_CONVEX ||
+                           landmark.kind == landmark_observation_t::KIND_CREASE_CONCAVE;
+    if (!is_crease) {
+      EXPECT_LT(landmark.chroma_variance_log2, 0.05);
+    }
   }
 }
 

@@ -127,6 +127,8 @@ std::optional<RejectReason> ChainEstimator::look_for_round(const Scene& scene,
   if (shape == ProfileShape::kLimb) return RejectReason::kChainOnLimb;
   if (shape == ProfileShape::kFlat) return std::nullopt;
   landmark.kind = LandmarkKind::kPole;
+  landmark.u_px = scene.camera.cx_px -
+                  scene.camera.fx_px * along_ratio * circle.center_m.y() / circle.center_m.x();
   const Eigen::Vector2d p_robot_m = scene.T_robot_camera.translation().head<2>() +
                                     circle.center_m.x() * ahead + circle.center_m.y() * left;
   const double radius_sigma_m = 0.15 * circle.radius_m;  // a short arc tells the radius badly

@@ -6,7 +6,7 @@
 namespace roomwise::landmark {
 namespace {
 
-constexpr double kStep_m = 0.05;  // a larger one between neighbours ends the surface
+constexpr double kStep_m = 0.08;  // a larger one between neighbours ends the surface
 
 }  // namespace
 

@@ -13,11 +13,11 @@ namespace roomwise::landmark {
 
 /// When an edge is taken for the outline of something round.
 struct RoundParams {
-  double arc_m = 0.12;              ///< of the near surface that is looked at
+  double arc_m = 0.20;              ///< of the near surface that is looked at
   double pole_radius_min_m = 0.01;  ///< narrower is no circle one can tell
   double pole_radius_max_m = 0.30;  ///< wider is a limb
   double limb_radius_max_m = 1.50;  ///< wider is as good as flat
-  double bend_quanta = 0.3;         ///< RMS about a line from which on it can be a curve
+  double bend_quanta = 0.15;        ///< RMS about a line from which on it can be a curve
   double better_ratio = 0.6;        ///< RMS about the circle, of that about the line, at most
 };
 

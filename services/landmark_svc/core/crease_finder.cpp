@@ -58,6 +58,16 @@ CreaseFinder::Line CreaseFinder::line_of(std::size_t begin, std::size_t end) con
   return {{x, y}, {std::cos(angle), std::sin(angle)}, std::sqrt(across), n};
 }
 
+/// By how much the second half of a side turns from the first, counter-clockwise.
+double CreaseFinder::bend_rad(std::size_t begin, std::size_t end) const {
+  const std::size_t middle = begin + (end - begin) / 2;
+  const Line one = line_of(begin, middle);
+  const Line two = line_of(middle, end);
+  const double sine = one.along.x() * two.along.y() - one.along.y() * two.along.x();
+  const double cosine = one.along.dot(two.along);
+  return std::atan(sine / (std::abs(cosine) > 1e-9 ? cosine : 1e-9));
+}
+
 std::size_t CreaseFinder::reach(const std::vector<ScanPoint>& points, std::size_t from, int step,
                                 double length_m) const {
   std::size_t at = from;
@@ -91,6 +101,13 @@ bool CreaseFinder::judge(const VirtualScan& scan, std::size_t at, const Disparit
   const double quantum_m = table.quantum_m(points[at].along_m);
   if (std::max(one.rms_m, two.rms_m) > params.residual_max_m + 0.5 * quantum_m) {
     rejected.add(RejectReason::kCreaseNotStraight);
+    return false;
+  }
+  const double turn_rad = std::atan(sine / one.along.dot(two.along));
+  const double bends_rad = bend_rad(first, at - kSkipped + 1) + bend_rad(at + kSkipped, last + 1);
+  const double same_way_rad = turn_rad < 0.0 ? -bends_rad : bends_rad;
+  if (std::abs(turn_rad) < 1.2 && same_way_rad > 0.5 * std::abs(turn_rad)) {
+    rejected.add(RejectReason::kCreaseOnRound);
     return false;
   }
   const Eigen::Vector2d between = two.mean_m - one.mean_m;

@@ -11,11 +11,11 @@ namespace roomwise::landmark {
 
 /// What counts as a crease: where two upright planes meet.
 struct CreaseParams {
-  double side_min_m = 0.10;        ///< straight length needed on either side
+  double side_min_m = 0.12;        ///< straight length needed on either side
   double side_max_m = 0.25;        ///< and looked at
   double angle_min_rad = 0.70;     ///< between the two sides
   double residual_max_m = 0.006;   ///< RMS about either side's line, plus half a quantum
-  double off_scan_max_m = 0.05;    ///< from the lines' crossing to the scan
+  double off_scan_max_m = 0.03;    ///< from the lines' crossing to the scan
   double suppress_px = 14.0;       ///< one crease within so many columns, at 640 px image width
   double position_bias_m = 0.010;  ///< sigma of what does not average out
 };
@@ -24,6 +24,7 @@ struct CreaseParams {
 /// prefix sums, so O(points); the crossing of the two straightest lines around is the crease. Its
 /// place does not depend on the viewpoint.
 ///
+/// A round thing bends within each side too: what turns there by half of the angle is no crease.
 /// With n1, n2 the lines' normals and s1, s2 their sigmas, the covariance of the crossing is
 /// (n1 n1' / s1^2 + n2 n2' / s2^2)^-1.
 class CreaseFinder {
@@ -56,6 +57,7 @@ class CreaseFinder {
 
   void prepare(const std::vector<ScanPoint>& points, const DisparityTable& table);
   Line line_of(std::size_t begin, std::size_t end) const;
+  double bend_rad(std::size_t begin, std::size_t end) const;
   bool judge(const VirtualScan& scan, std::size_t at, const DisparityTable& table,
              const CreaseParams& params, Candidate& candidate, RejectCounts& rejected) const;
   std::size_t reach(const std::vector<ScanPoint>& points, std::size_t from, int step,

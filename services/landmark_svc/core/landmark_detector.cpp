@@ -43,12 +43,29 @@ LandmarkDetector::LandmarkDetector(const LandmarkParams& params) : params_(param
           "dark_luma_levels must be smaller than light_luma_levels");
 }
 
-DetectResult LandmarkDetector::detect(const RgbdFrame& frame) {
+DetectResult LandmarkDetector::detect(const RgbdFrame& frame,
+                                      const std::optional<Pose2>& T_odom_robot) {
   const DetectResult result = check(frame);
   if (result != DetectResult::kOk) return result;
   find_edges(frame);
   find_landmarks(frame);
+  mark_moving(frame, T_odom_robot);
   return DetectResult::kOk;
+}
+
+void LandmarkDetector::mark_moving(const RgbdFrame& frame,
+                                   const std::optional<Pose2>& T_odom_robot) {
+  if (!T_odom_robot || !floor_) {
+    moving_.clear();
+    return;
+  }
+  moving_.update(frame.utime, *T_odom_robot, scan_, frame.depth_camera, frame.depth.width_px,
+                 params_.moving);
+  for (Landmark& landmark : landmarks_) {
+    const Eigen::Vector2d p_m = landmark.range_m * Eigen::Vector2d(std::cos(landmark.bearing_rad),
+                                                                   std::sin(landmark.bearing_rad));
+    landmark.is_moving = moving_.covers(p_m, params_.moving);
+  }
 }
 
 void LandmarkDetector::find_edges(const RgbdFrame& frame) {

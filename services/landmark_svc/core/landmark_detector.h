@@ -13,6 +13,7 @@
 #include "services/landmark_svc/core/jump_edges.h"
 #include "services/landmark_svc/core/landmark.h"
 #include "services/landmark_svc/core/landmark_params.h"
+#include "services/landmark_svc/core/moving_mask.h"
 #include "services/landmark_svc/core/reject_counts.h"
 #include "services/landmark_svc/core/slope_edges.h"
 #include "services/landmark_svc/core/virtual_scan.h"
@@ -40,7 +41,13 @@ class LandmarkDetector {
   explicit LandmarkDetector(const LandmarkParams& params);
 
   /// Replaces the results below by those of `frame`. On anything but kOk they are as they were.
-  DetectResult detect(const RgbdFrame& frame);
+  /// With the robot's pose by the odometry at the frame's time, what moves is found and marked;
+  /// without, nothing is, and what earlier frames showed is forgotten.
+  DetectResult detect(const RgbdFrame& frame,
+                      const std::optional<Pose2>& T_odom_robot = std::nullopt);
+
+  /// Forgets where earlier frames were seen from: the odometry started anew.
+  void forget_motion() { moving_.clear(); }
 
   /// From left to right.
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -65,6 +72,7 @@ class LandmarkDetector {
   void find_landmarks(const RgbdFrame& frame);
   void find_chains(const RgbdFrame& frame);
   void find_creases(const RgbdFrame& frame);
+  void mark_moving(const RgbdFrame& frame, const std::optional<Pose2>& T_odom_robot);
   void try_chain(const ChainEstimator::Scene& scene, std::span<const EdgePixel> chain);
 
   LandmarkParams params_;
@@ -75,6 +83,7 @@ class LandmarkDetector {
   ChainLinker linker_;
   ChainEstimator estimator_;
   VirtualScan scan_;
+  MovingMask moving_;
   CreaseFinder crease_finder_;
   std::optional<FloorView> floor_;
   double alpha_ratio_ = 0.0;

@@ -7,6 +7,7 @@
 #include "services/landmark_svc/core/crease_finder.h"
 #include "services/landmark_svc/core/edge_chains.h"
 #include "services/landmark_svc/core/jump_edges.h"
+#include "services/landmark_svc/core/moving_mask.h"
 #include "services/landmark_svc/core/region_of_interest.h"
 #include "services/landmark_svc/core/slope_edges.h"
 
@@ -30,6 +31,7 @@ struct LandmarkParams {
   ChainEstimateParams estimate;
   VirtualScanParams scan;
   CreaseParams crease;
+  MovingParams moving;
 
   bool is_thesis() const { return method == "thesis"; }
   /// 8 f b: disparity in quanta times depth in metres.
@@ -95,6 +97,12 @@ struct LandmarkParams {
     field("crease_off_scan_max_m", crease.off_scan_max_m, 1e-3, 1.0);
     field("crease_suppress_px", crease.suppress_px, 0.0, 640.0);
     field("crease_position_bias_m", crease.position_bias_m, 1e-4, 1.0);
+    field("moving_memory_s", moving.memory_s, 0.0, 10.0);
+    field("moving_margin_m", moving.margin_m, 0.01, 2.0);
+    field("moving_margin_ratio", moving.margin_ratio, 0.0, 1.0);
+    field("moving_unseen_free_m", moving.unseen_free_m, 0.0, 5.0);
+    field("moving_width_min_m", moving.width_min_m, 0.0, 2.0);
+    field("moving_reach_m", moving.reach_m, 0.0, 2.0);
   }
 };
 
