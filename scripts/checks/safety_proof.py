@@ -52,7 +52,7 @@ def passes(program):
     environment = {"RC_PARAMS": "seed=2012 max_success=30", "PATH": "/usr/bin:/bin"}
     try:
         run = subprocess.run([str(program), "--gtest_fail_fast"], capture_output=True,
-                             env=environment, timeout=60, check=False)
+                             env=environment, timeout=300, check=False)
     except subprocess.TimeoutExpired:
         return False
     return run.returncode == 0
