@@ -78,7 +78,8 @@ void CalibrationDrive::turn_over(double speed_mps, double turn_rate_radps) {
                            .decided = time.wall,
                            .expiry = time.wall + kCommandLife,
                            .session = 1,
-                           .sequence = ++sequence_});
+                           .sequence = ++sequence_,
+                           .proof = Proof::kGenuine});  // of no bus: its own
     link_.send(time.steady, driver_.step(time, link_.receive()));
     link_.set_wake_line(driver_.pulls_wake_line(time.steady));
     for (const FrameReport& report : driver_.reports()) add(report);

@@ -5,7 +5,7 @@
 namespace roomwise {
 
 Signature KeyWatch::check(const velocity_command_t& command) {
-  if (command.signature.empty()) return Signature::kMissing;
+  if (command.signature_size == 0) return Signature::kMissing;
   if (key_ && check_signature(*key_, command) == Signature::kGenuine) return Signature::kGenuine;
   read_if_due();
   return key_ ? check_signature(*key_, command) : Signature::kForged;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 
 namespace roomwise::safety {
 namespace {
@@ -15,10 +16,15 @@ static_assert(static_cast<int>(Reason::kCharging) == velocity_command_t::REASON_
 static_assert(static_cast<int>(Reason::kObstacle) == velocity_command_t::REASON_OBSTACLE);
 static_assert(static_cast<int>(Reason::kClock) == velocity_command_t::REASON_CLOCK);
 
+/// An array of a message. Decoding an empty one leaves what the message held before: its size alone
+/// counts.
+std::span<const double> array_of(const std::vector<double>& values, std::int32_t count) {
+  return std::span(values).first(std::min(values.size(), static_cast<std::size_t>(count)));
+}
+
 bool sees_drop_off(const segmentation_t& message) {
-  const std::size_t classes =
-      std::min(message.class_label.size(), message.class_fraction_ratio.size());
-  for (std::size_t i = 0; i < classes; ++i) {
+  const auto classes = static_cast<std::size_t>(message.class_count);
+  for (std::size_t i = 0; i < std::min(classes, message.class_label.size()); ++i) {
     if (message.class_label[i] == segmentation_t::LABEL_DROP_OFF) {
       return message.class_fraction_ratio[i] > kDropOffFraction;
     }
@@ -84,8 +90,8 @@ FloorView view_of(const segmentation_t& message) {
   return {.time = time_from_utime(message.utime),
           .free = {.first_bearing_rad = message.bin_first_bearing_rad,
                    .bearing_step_rad = message.bin_step_rad,
-                   .free_range_m = message.free_range_m,
-                   .unknown_ratio = message.unknown_ratio,
+                   .free_range_m = array_of(message.free_range_m, message.bin_count),
+                   .unknown_ratio = array_of(message.unknown_ratio, message.bin_count),
                    .has_drop_off = sees_drop_off(message)},
           .is_plane_trusted = message.floor_trusted != 0,
           .floor_normal = {normal[0], normal[1], normal[2]},

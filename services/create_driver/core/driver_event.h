@@ -38,13 +38,12 @@ enum class DriverEvent : std::uint8_t {
 /// The counter's name on HEALTH.
 constexpr std::string_view name_of(DriverEvent event) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(DriverEvent::kCount)> kNames = {
-      "command_unsigned",     "command_forged",
-      "command_not_finite",   "command_absurd",        "command_expired", "command_from_future",
-      "command_out_of_order", "command_other_session", "commands_silent", "mode_dropped",
-      "mode_refused",         "mode_byte_offset",      "mode_unknown",    "robot_reset",
-      "robot_booted",         "robot_silent",          "host_stalled",    "checksum_switched",
-      "frames_damaged",       "bytes_skipped",         "reading_lost",    "odometry_gap",
-      "odometry_jump",        "odometry_out_of_order"};
+      "command_unsigned", "command_forged",      "command_not_finite",   "command_absurd",
+      "command_expired",  "command_from_future", "command_out_of_order", "command_other_session",
+      "commands_silent",  "mode_dropped",        "mode_refused",         "mode_byte_offset",
+      "mode_unknown",     "robot_reset",         "robot_booted",         "robot_silent",
+      "host_stalled",     "checksum_switched",   "frames_damaged",       "bytes_skipped",
+      "reading_lost",     "odometry_gap",        "odometry_jump",        "odometry_out_of_order"};
   return kNames[static_cast<std::size_t>(event)];
 }
 

@@ -71,11 +71,21 @@ TEST(CommandSignature, AnotherKeyIsForged) {
 
 TEST(CommandSignature, OfAnotherLengthIsForgedAndNoneIsMissing) {
   velocity_command_t command = signed_command();
-  command.signature.push_back(0);
+  const auto set_size = [&command](std::size_t size) {
+    command.signature.resize(size);
+    command.signature_size = static_cast<std::int32_t>(size);
+  };
+  set_size(33);
   EXPECT_EQ(check_signature(some_key(), command), Signature::kForged);
-  command.signature.resize(3);
+  set_size(3);
   EXPECT_EQ(check_signature(some_key(), command), Signature::kForged);
-  command.signature.clear();
+  set_size(0);
+  EXPECT_EQ(check_signature(some_key(), command), Signature::kMissing);
+}
+
+TEST(CommandSignature, WhatDecodingLeftBehindOfAnEarlierMessageIsNone) {
+  velocity_command_t command = signed_command();
+  command.signature_size = 0;
   EXPECT_EQ(check_signature(some_key(), command), Signature::kMissing);
 }
 

@@ -1,0 +1,323 @@
+// What is known of the camera, the way and the floor.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "services/safety_svc/core/arc.h"
+#include "tests/safety_svc/support/driven_world.h"
+
+namespace roomwise::safety {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr Instant kStart{seconds(100), time_from_utime(1'700'000'000'000'000)};
+
+Instant later(Duration time) { return {kStart.steady + time, kStart.wall + time}; }
+
+TEST(Arc, IsAQuarterOfACircleAfterAQuarterTurn) {
+  const Pose2 pose = along_arc(M_PI / 2.0, 1.0);
+  EXPECT_NEAR(pose.x_m, 1.0, 1e-12);
+  EXPECT_NEAR(pose.y_m, 1.0, 1e-12);
+  EXPECT_NEAR(pose.heading_rad, M_PI / 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(along_arc(-0.5, 0.0).x_m, -0.5);
+}
+
+TEST(CameraMount, SaysWhereTheFloorComesIntoView) {
+  const auto mount = mount_of(DrivenWorld::camera());
+  ASSERT_TRUE(mount.has_value());
+  EXPECT_NEAR(mount->floor_seen_from_m, 0.4 / (239.0 / 430.0), 1e-9);
+  EXPECT_DOUBLE_EQ(mount->height_m, 0.4);
+  EXPECT_NEAR(mount->up_in_camera.y(), -1.0, 1e-9);
+  CameraSetup ahead = DrivenWorld::camera();
+  ahead.p_robot_camera_m.x() = 0.1;
+  EXPECT_NEAR(mount_of(ahead)->floor_seen_from_m, 0.1 + 0.4 / (239.0 / 430.0), 1e-9);
+}
+
+TEST(CameraMount, RefusesWhatSeesNoFloorAhead) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refuses = [](auto change) {
+    CameraSetup setup = DrivenWorld::camera();
+    change(setup);
+    return !mount_of(setup).has_value();
+  };
+  EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz *= 1.1; }));
+  EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz.setZero(); }));
+  EXPECT_TRUE(refuses([](auto& s) { s.p_robot_camera_m.z() = 0.0; }));
+  EXPECT_TRUE(refuses([](auto& s) { s.p_robot_camera_m.x() = 6.0; }));
+  EXPECT_TRUE(refuses([&](auto& s) { s.p_robot_camera_m.x() = nan; }));
+  EXPECT_TRUE(refuses([&](auto& s) { s.fy_px = nan; }));
+  EXPECT_TRUE(refuses([](auto& s) { s.fy_px = 4300.0; })) << "farther than 5 m";
+  EXPECT_TRUE(refuses([](auto& s) { s.cy_px = 500.0; })) << "looks up";
+  EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz = {0.5, -0.5, -0.5, 0.5}; })) << "looks back";
+  EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz = {1.0, 0.0, 0.0, 0.0}; })) << "lies on its side";
+}
+
+TEST(CameraMount, NoticesTiltAndHeight) {
+  const CameraMount mount = *mount_of(DrivenWorld::camera());
+  const auto leaning = [](double angle_rad) {
+    return Eigen::Vector3d(0.0, -std::cos(angle_rad), std::sin(angle_rad));
+  };
+  EXPECT_FALSE(is_tilted(mount, leaning(0.0), 0.4));
+  EXPECT_FALSE(is_tilted(mount, leaning(kTilt_rad - 1e-3), 0.4));
+  EXPECT_TRUE(is_tilted(mount, leaning(kTilt_rad + 1e-3), 0.4));
+  EXPECT_FALSE(is_tilted(mount, leaning(0.0), 0.4 + kHeight_m - 1e-3));
+  EXPECT_TRUE(is_tilted(mount, leaning(0.0), 0.4 + kHeight_m + 1e-3));
+  EXPECT_TRUE(is_tilted(mount, leaning(0.0), 0.4 - kHeight_m - 1e-3));
+  EXPECT_TRUE(is_tilted(mount, leaning(0.0) * 1.1, 0.4));
+  EXPECT_TRUE(is_tilted(mount, leaning(0.0), std::numeric_limits<double>::quiet_NaN()));
+}
+
+OdometrySample sample_at(Duration time, double x_m, double step_m) {
+  return {.time = kStart.wall + time,
+          .interval = milliseconds(100),
+          .distance_m = step_m,
+          .T_odom_robot = {x_m, 0.0, 0.0}};
+}
+
+TEST(OdometryTrack, KnowsWhereItWasAndWhereItIs) {
+  OdometryTrack track;
+  EXPECT_FALSE(track.pose_at(kStart.wall).has_value());
+  EXPECT_EQ(track.pose_now(kStart).x_m, 0.0);
+  ASSERT_EQ(track.add(kStart, sample_at(milliseconds(0), 0.0, 0.0)), OdometryResult::kStartedAnew);
+  ASSERT_EQ(track.add(later(milliseconds(100)), sample_at(milliseconds(100), 0.02, 0.02)),
+            OdometryResult::kUsed);
+  EXPECT_DOUBLE_EQ(track.pose_at(kStart.wall)->x_m, 0.0);
+  EXPECT_DOUBLE_EQ(track.pose_at(kStart.wall + milliseconds(50))->x_m, 0.01);
+  EXPECT_DOUBLE_EQ(track.pose_at(kStart.wall + milliseconds(300))->x_m, 0.06);
+  EXPECT_FALSE(track.pose_at(kStart.wall + milliseconds(301)).has_value());
+  EXPECT_FALSE(track.pose_at(kStart.wall - Duration(1)).has_value());
+  EXPECT_DOUBLE_EQ(track.pose_now(later(milliseconds(200))).x_m, 0.04);
+  EXPECT_DOUBLE_EQ(track.pose_now(later(seconds(9))).x_m, 0.02 + 0.2 * 0.35);
+  EXPECT_DOUBLE_EQ(track.speed_mps(), 0.2);
+}
+
+TEST(OdometryTrack, RefusesWhatNoCreateDoes) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto result = [](auto change) {
+    OdometryTrack track;
+    OdometrySample sample = sample_at(milliseconds(0), 0.0, 0.0);
+    change(sample);
+    return track.add(kStart, sample);
+  };
+  const auto refused = OdometryResult::kRefused;
+  const auto used = OdometryResult::kStartedAnew;
+  EXPECT_EQ(result([](auto& s) { s.interval = Duration(0); }), refused);
+  EXPECT_EQ(result([](auto& s) { s.interval = Duration(1); }), used);
+  EXPECT_EQ(result([](auto& s) { s.interval = seconds(5); }), used);
+  EXPECT_EQ(result([](auto& s) { s.interval = seconds(5) + Duration(1); }), refused);
+  EXPECT_EQ(result([](auto& s) { s.distance_m = 0.199; }), used);
+  EXPECT_EQ(result([](auto& s) { s.distance_m = -0.201; }), refused);
+  EXPECT_EQ(result([](auto& s) { s.turn_rad = 1.99; }), used);
+  EXPECT_EQ(result([](auto& s) { s.turn_rad = 2.01; }), refused);
+  EXPECT_EQ(result([](auto& s) { s.T_odom_robot.x_m = 1e5; }), refused);
+  EXPECT_EQ(result([](auto& s) { s.T_odom_robot.y_m = -1e5; }), refused);
+  EXPECT_EQ(result([](auto& s) { s.T_odom_robot.heading_rad = 4.0; }), refused);
+  EXPECT_EQ(result([&](auto& s) { s.T_odom_robot.heading_rad = nan; }), refused);
+  EXPECT_EQ(result([&](auto& s) { s.distance_m = nan; }), refused);
+}
+
+TEST(OdometryTrack, StandsBelowItsLimits) {
+  for (const auto& [distance_m, turn_rad, stands] :
+       {std::tuple(0.0059, 0.029, true), {-0.0061, 0.0, false}, {0.0, -0.031, false}}) {
+    OdometryTrack track;
+    OdometrySample sample = sample_at(milliseconds(0), 0.0, distance_m);
+    sample.turn_rad = turn_rad;
+    ASSERT_EQ(track.add(kStart, sample), OdometryResult::kStartedAnew);
+    EXPECT_EQ(track.stands(), stands);
+  }
+}
+
+/// Drives ahead by 2.5 cm ten times.
+OdometryTrack driven_track() {
+  OdometryTrack track;
+  for (int i = 0; i <= 10; ++i) {
+    (void)track.add(later(milliseconds(100 * i)),
+                    sample_at(milliseconds(100 * i), 0.025 * i, 0.025));
+  }
+  return track;
+}
+
+TEST(OdometryTrack, TheWayBackIsAsLongAsTheWayCameAndFades) {
+  const OdometryTrack track = driven_track();
+  const Instant now = later(milliseconds(1000));
+  EXPECT_NEAR(track.reverse_way_m(now, 0.0), 0.27, 0.02);
+  EXPECT_LT(track.reverse_way_m(now, 8.0), 0.15) << "another way";
+  EXPECT_EQ(track.reverse_way_m(later(seconds(22)), 0.0), 0.0);
+}
+
+TEST(OdometryTrack, ANewFrameForgetsTheWayBack) {
+  OdometryTrack track = driven_track();
+  OdometrySample sample = sample_at(milliseconds(1100), 9.0, 0.0);
+  sample.reset_counter = 1;
+  EXPECT_EQ(track.add(later(milliseconds(1100)), sample), OdometryResult::kStartedAnew);
+  EXPECT_LE(track.reverse_way_m(later(milliseconds(1100)), 0.0), 0.03);
+  EXPECT_FALSE(track.pose_at(kStart.wall + milliseconds(1000)).has_value());
+}
+
+/// A view of 21 bearings of 2 degrees, all alike.
+struct UniformView {
+  UniformView(double free, double unknown) : free_m(21, free), unknown_ratio(21, unknown) {}
+  FreeView view() const {
+    return {.first_bearing_rad = -0.35,
+            .bearing_step_rad = 0.035,
+            .free_range_m = free_m,
+            .unknown_ratio = unknown_ratio,
+            .floor_seen_from_m = 0.7};
+  }
+  std::vector<double> free_m;
+  std::vector<double> unknown_ratio;
+};
+
+TEST(ObstacleMemory, TellsFreeClosedOverlookedAndUnknown) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(1.52, 0.1).view()));
+  EXPECT_EQ(memory.at(kStart, {1.0, 0.0}).ground, Ground::kFree);
+  EXPECT_EQ(memory.at(kStart, {0.72, 0.0}).ground, Ground::kFree);
+  EXPECT_EQ(memory.at(kStart, {0.6, 0.0}).ground, Ground::kOverlooked);
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).ground, Ground::kClosed);
+  EXPECT_EQ(memory.at(kStart, {1.57, 0.0}).ground, Ground::kClosed);
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).why, Reason::kObstacle);
+  EXPECT_EQ(memory.at(kStart, {1.68, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(kStart, {-1.0, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(kStart, {1.0 - 6.4, 0.0}).ground, Ground::kUnknown) << "the same cell";
+}
+
+TEST(ObstacleMemory, Fades) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(1.52, 0.1).view()));
+  EXPECT_EQ(memory.at(later(kFreeLife), {1.0, 0.0}).ground, Ground::kFree);
+  EXPECT_EQ(memory.at(later(kFreeLife + Duration(1)), {1.0, 0.0}).ground, Ground::kOverlooked);
+  EXPECT_EQ(memory.at(later(kOverlookedLife), {1.0, 0.0}).ground, Ground::kOverlooked);
+  EXPECT_EQ(memory.at(later(kOverlookedLife + Duration(1)), {1.0, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(later(kCameraAge), {1.52, 0.0}).why, Reason::kObstacle);
+  EXPECT_EQ(memory.at(later(kCameraAge + Duration(1)), {1.52, 0.0}).why, Reason::kRemembered);
+  EXPECT_EQ(memory.at(later(kClosedLife), {1.52, 0.0}).ground, Ground::kClosed);
+  EXPECT_EQ(memory.at(later(kClosedLife + Duration(1)), {1.52, 0.0}).ground, Ground::kUnknown);
+}
+
+TEST(ObstacleMemory, OnlySeeingTheFloorOpensWhatWasClosed) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(1.52, 0.1).view()));
+  const Pose2 nearer{1.0, 0.0, 0.0};  // now 0.52 m ahead, in the blind zone
+  ASSERT_TRUE(memory.see(kStart, nearer, UniformView(2.0, 0.1).view()));
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).ground, Ground::kClosed);
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(2.0, 0.1).view()));
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).ground, Ground::kFree);
+}
+
+TEST(ObstacleMemory, WhereNoFloorComesIntoViewItDoubtsWhatItKnew) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view()));
+  ASSERT_EQ(memory.at(kStart, {0.3, 0.0}).ground, Ground::kFree);
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.0, 0.1).view()));
+  EXPECT_EQ(memory.at(kStart, {0.3, 0.0}).ground, Ground::kFree) << "no reading is that near";
+  EXPECT_EQ(memory.at(kStart, {0.6, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(kStart, {1.2, 0.0}).ground, Ground::kFree);
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.0, 0.9).view()));
+  EXPECT_EQ(memory.at(kStart, {0.3, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(kStart, {1.2, 0.0}).ground, Ground::kUnknown);
+}
+
+TEST(ObstacleMemory, RefusesWhatIsNoView) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ObstacleMemory memory;
+  const UniformView good(1.0, 0.1);
+  const auto sees = [&](auto change) {
+    FreeView view = good.view();
+    change(view);
+    return memory.see(kStart, {}, view);
+  };
+  EXPECT_TRUE(sees([](auto&) {}));
+  EXPECT_FALSE(sees([](auto& v) { v.free_range_m = {}; }));
+  EXPECT_FALSE(sees([](auto& v) { v.unknown_ratio = v.unknown_ratio.first(20); }));
+  EXPECT_FALSE(sees([](auto& v) { v.first_bearing_rad = -1.6; }));
+  EXPECT_FALSE(sees([](auto& v) { v.bearing_step_rad = 0.1; }));
+  EXPECT_FALSE(sees([&](auto& v) { v.bearing_step_rad = nan; }));
+  UniformView bad = good;
+  bad.free_m[3] = nan;
+  EXPECT_FALSE(memory.see(kStart, {}, bad.view()));
+  bad = good;
+  bad.unknown_ratio[3] = nan;
+  EXPECT_FALSE(memory.see(kStart, {}, bad.view()));
+  const std::vector<double> many(1001, 0.5);
+  EXPECT_FALSE(sees([&](auto& v) {
+    v.free_range_m = v.unknown_ratio = many;
+    v.bearing_step_rad = 1e-4;
+  }));
+}
+
+TEST(World, SaysWhyAnInputIsNotUsed) {
+  DrivenWorld drive;
+  const Instant now = drive.now();
+  World& world = drive.world;
+  EXPECT_EQ(world.hear_view(now, drive.view()), InputResult::kNoMount);
+  EXPECT_EQ(world.hear_frame(now, now.wall, {}), InputResult::kMalformed);
+  EXPECT_EQ(world.hear_frame(now, now.wall, DrivenWorld::camera()), InputResult::kUsed);
+  EXPECT_EQ(world.hear_frame(now, now.wall, DrivenWorld::camera()), InputResult::kOutOfOrder);
+  EXPECT_EQ(world.hear_view(now, drive.view()), InputResult::kNoPose);
+  EXPECT_EQ(world.hear_odometry(now, drive.odometry_sample()), InputResult::kUsed);
+  EXPECT_EQ(world.hear_odometry(now, drive.odometry_sample()), InputResult::kOutOfOrder);
+  FloorView view = drive.view();
+  view.free.bearing_step_rad = 9.0;
+  EXPECT_EQ(world.hear_view(now, view), InputResult::kMalformed);
+  EXPECT_FALSE(world.view.is_fresh(now, seconds(9))) << "what was not used was not heard";
+  EXPECT_EQ(world.hear_view(now, drive.view()), InputResult::kUsed);
+  EXPECT_EQ(world.hear_body(now, now.wall - seconds(2), {}), InputResult::kOld);
+  EXPECT_EQ(world.hear_body(now, now.wall + seconds(2), {}), InputResult::kFromFuture);
+  OdometrySample sample = drive.odometry_sample();
+  sample.time += milliseconds(1);
+  sample.interval = Duration(0);
+  EXPECT_EQ(world.hear_odometry(now, sample), InputResult::kMalformed);
+  sample.time += seconds(1);
+  EXPECT_EQ(world.hear_odometry(now, sample), InputResult::kFromFuture);
+  EXPECT_TRUE(world.odometry.is_distrusted(now));
+}
+
+TEST(World, ATiltedCameraStopsTheWayAheadOnly) {
+  DrivenWorld drive;
+  drive.ask(0.2, 0.0);
+  drive.run(seconds(2));
+  drive.has_camera = false;
+  FloorView view = drive.view();
+  view.time += milliseconds(1);
+  view.floor_height_m = 0.8;
+  view.is_plane_trusted = false;
+  EXPECT_EQ(drive.world.hear_view(drive.now(), view), InputResult::kUsed);
+  EXPECT_FALSE(drive.world.is_tilted());
+  view.time += milliseconds(1);
+  view.is_plane_trusted = true;
+  EXPECT_EQ(drive.world.hear_view(drive.now(), view), InputResult::kUsed);
+  EXPECT_EQ(drive.step().first, Reason::kTilt);
+  drive.ask(0.0, 0.5);
+  EXPECT_GT(drive.step().granted.turn_rate_radps, 0.0);
+}
+
+TEST(World, IsCalmOnlyIfNothingMovesAsksOrPresses) {
+  DrivenWorld drive;
+  drive.ask(0.0, 0.0);
+  drive.run(milliseconds(100));
+  EXPECT_TRUE(drive.world.is_calm(drive.now()));
+  drive.ask(0.0, 0.5);
+  drive.step();
+  EXPECT_FALSE(drive.world.is_calm(drive.now()));
+  drive.asks = false;
+  drive.run(milliseconds(200));
+  EXPECT_TRUE(drive.world.is_calm(drive.now()));
+  for (const auto sensor : {&BodyState::bump, &BodyState::wheel_drop}) {
+    drive.body.*sensor = true;
+    drive.step();
+    EXPECT_FALSE(drive.world.is_calm(drive.now()));
+    drive.body.*sensor = false;
+  }
+  drive.step();
+  drive.asks = true;
+  drive.ask(std::numeric_limits<double>::quiet_NaN(), 0.0);
+  drive.step();
+  EXPECT_FALSE(drive.world.is_calm(drive.now()));
+}
+
+}  // namespace
+}  // namespace roomwise::safety
