@@ -11,10 +11,12 @@ namespace roomwise::pilot {
 namespace {
 
 constexpr double kQuarter_rad = std::numbers::pi / 2.0;
-constexpr double kLeanGain_radpm = 2.5;
+constexpr double kLeanGain_radpm = 4.0;
 constexpr double kLeanMax_rad = 0.8;
 constexpr double kAhead_rad = 0.5;  // either side: what counts as ahead
-constexpr double kLost_m = 1.0;     // farther than wanted: no longer round it
+constexpr double kOnCourse_rad = 0.2;
+constexpr double kCareful_ratio = 0.7;  // of the speed: the band is narrow
+constexpr double kLost_m = 1.0;         // farther than wanted: no longer round it
 
 }  // namespace
 
@@ -73,20 +75,23 @@ Step Circle::run_around(const Surroundings& around) {
   }
   const double distance_m = object_m->norm();
   object_distance_m_ = std::max(distance_m - params_.robot_radius_m, 0.0);
-  if (look_is_due(around)) begin_look(around);
   const double lean_rad = std::clamp(kLeanGain_radpm * (distance_m - wanted_m(around, distance_m)),
                                      -kLeanMax_rad, kLeanMax_rad);
   const double bearing_rad =
       wrap_angle(std::atan2(object_m->y(), object_m->x()) - sense_ * (kQuarter_rad - lean_rad));
+  const bool is_on_course = std::abs(bearing_rad) < kOnCourse_rad;
+  if (is_on_course && look_is_due(around)) begin_look(around);
   const double tight_m = params_.robot_radius_m + params_.margin_tight_m;
   const double way_m = swept_way_m(around.obstacles_robot_m, 0.0, tight_m, params_.reach_m);
-  Motion motion = steer(bearing_rad, way_m, speed_mps_, params_);
+  Motion motion = steer(bearing_rad, way_m, kCareful_ratio * speed_mps_, params_);
   motion.turn_rate_radps += sense_ * motion.speed_mps / std::max(distance_m, 0.2);
   return {.motion = motion, .bearing_rad = bearing_rad};
 }
 
 double Circle::wanted_m(const Surroundings& around, double object_m) const {
-  const double wanted = params_.robot_radius_m + goal_.circle_distance_m;
+  // Of many cells that may be half a cell off the nearest is taken: that one lies too near.
+  const double wanted =
+      params_.robot_radius_m + goal_.circle_distance_m - 0.25 * ObstacleMemory::kCell_m;
   const auto other_m = nearest(around, -2.3, -0.7);
   if (!other_m) return wanted;
   return std::min(wanted, 0.5 * (object_m + other_m->norm()));

@@ -14,11 +14,11 @@ double freshness_along(const Surroundings& around, const Direction& direction, d
   const double heading_rad = around.T_odom_robot.heading_rad + direction.bearing_rad;
   const Eigen::Vector2d unit(std::cos(heading_rad), std::sin(heading_rad));
   double sum = 0.0;
-  for (const double share : {0.5, 1.0}) {
+  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
     const Eigen::Vector2d p_m = around.T_odom_robot.position_m() + share * direction.way_m * unit;
     sum += around.visits.freshness(around.now, p_m, fades_s);
   }
-  return 0.5 * sum;
+  return 0.25 * sum;
 }
 
 }  // namespace

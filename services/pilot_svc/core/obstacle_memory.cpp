@@ -7,6 +7,8 @@ namespace roomwise::pilot {
 namespace {
 
 constexpr std::size_t kBinsMax = 1000;
+constexpr int kSightingsMax = 4;
+constexpr int kSightingsBlocked = 2;
 constexpr double kNearestReading_m = 0.45;  // no Kinect measures nearer
 
 Duration to_duration(double time_s) { return Duration{static_cast<std::int64_t>(time_s * 1e6)}; }
@@ -28,6 +30,17 @@ bool is_view(const FreeView& view) {
          all_finite(view.free_range_m) && all_finite(view.unknown_ratio);
 }
 
+/// Of the bin and its neighbours that are in view.
+double median_m(const FreeView& view, std::size_t k) {
+  const auto at = [&](std::size_t i) { return std::max(view.free_range_m[i], 0.0); };
+  const bool has_left = k > 0 && view.unknown_ratio[k - 1] < 1.0;
+  const bool has_right = k + 1 < view.free_range_m.size() && view.unknown_ratio[k + 1] < 1.0;
+  if (!has_left || !has_right) return at(k);
+  const double low_m = std::min(at(k - 1), at(k + 1));
+  const double high_m = std::max(at(k - 1), at(k + 1));
+  return std::clamp(at(k), low_m, high_m);
+}
+
 }  // namespace
 
 ObstacleMemory::ObstacleMemory(const PilotParams& params) : params_(params), cells_(capacity()) {}
@@ -36,26 +49,32 @@ void ObstacleMemory::forget() { std::fill(cells_.begin(), cells_.end(), Cell{});
 
 bool ObstacleMemory::see(Time now, const Pose2& T_odom_robot, const FreeView& view) {
   if (!is_view(view)) return false;
-  for (std::size_t k = 0; k < view.free_range_m.size(); ++k) {
-    if (view.unknown_ratio[k] >= 1.0) continue;  // not in view
-    const double bearing_rad =
-        view.first_bearing_rad + static_cast<double>(k) * view.bearing_step_rad;
-    const double free_m = std::max(view.free_range_m[k], 0.0);
-    if (free_m > 0.0) see_ray(now, T_odom_robot, bearing_rad, free_m);
-    if (free_m == 0.0) guess(now, T_odom_robot, bearing_rad);
+  for (const bool is_end : {false, true}) {
+    for (std::size_t k = 0; k < view.free_range_m.size(); ++k) {
+      if (view.unknown_ratio[k] >= 1.0) continue;  // not in view
+      const double bearing_rad =
+          view.first_bearing_rad + static_cast<double>(k) * view.bearing_step_rad;
+      const double free_m = median_m(view, k);
+      if (is_end) see_end(now, T_odom_robot, bearing_rad, free_m);
+      if (!is_end) see_floor(now, T_odom_robot, bearing_rad, free_m);
+    }
   }
   return true;
 }
 
-void ObstacleMemory::see_ray(Time now, const Pose2& T_odom_robot, double bearing_rad,
-                             double free_m) {
-  const Time fades = now + to_duration(params_.memory_s);
-  const double free_to_m = std::min(free_m, params_.reach_m);
-  for (double r = params_.floor_seen_from_m; r < free_to_m - 0.5 * kCell_m; r += kCell_m) {
-    set(on_ray(T_odom_robot, bearing_rad, r), false, fades);
+void ObstacleMemory::see_floor(Time now, const Pose2& T_odom_robot, double bearing_rad,
+                               double free_m) {
+  const double free_to_m = std::min(free_m, params_.reach_m) - 0.5 * kCell_m;
+  for (double r = params_.floor_seen_from_m; r < free_to_m; r += kCell_m) {
+    set(now, on_ray(T_odom_robot, bearing_rad, r), false, params_.memory_s);
   }
+}
+
+void ObstacleMemory::see_end(Time now, const Pose2& T_odom_robot, double bearing_rad,
+                             double free_m) {
   if (free_m >= params_.reach_m) return;
-  set(on_ray(T_odom_robot, bearing_rad, free_m + 0.5 * kCell_m), true, fades);
+  if (free_m == 0.0) return guess(now, T_odom_robot, bearing_rad);
+  set(now, on_ray(T_odom_robot, bearing_rad, free_m + 0.5 * kCell_m), true, params_.memory_s);
 }
 
 void ObstacleMemory::guess(Time now, const Pose2& T_odom_robot, double bearing_rad) {
@@ -64,7 +83,7 @@ void ObstacleMemory::guess(Time now, const Pose2& T_odom_robot, double bearing_r
     if (is_blocked(now, on_ray(T_odom_robot, bearing_rad, r))) return;
   }
   const double range_m = 0.5 * (kNearestReading_m + params_.floor_seen_from_m);
-  set(on_ray(T_odom_robot, bearing_rad, range_m), true, now + to_duration(params_.guess_memory_s));
+  set(now, on_ray(T_odom_robot, bearing_rad, range_m), true, params_.guess_memory_s);
 }
 
 void ObstacleMemory::obstacles_round(Time now, const Pose2& T_odom_robot,
@@ -74,7 +93,7 @@ void ObstacleMemory::obstacles_round(Time now, const Pose2& T_odom_robot,
   const Eigen::Matrix2d R_robot_odom = rotation2(T_robot_odom.heading_rad);
   const double reach_sq_m2 = params_.reach_m * params_.reach_m;
   for (const Cell& cell : cells_) {
-    if (!cell.is_blocked || cell.fades < now) continue;
+    if (cell.sightings < kSightingsBlocked || cell.fades < now) continue;
     const Eigen::Vector2d p_odom_m = kCell_m * Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5);
     const Eigen::Vector2d p_m = T_robot_odom.position_m() + R_robot_odom * p_odom_m;
     if (p_m.squaredNorm() < reach_sq_m2) points_robot_m.push_back(p_m);
@@ -87,7 +106,7 @@ bool ObstacleMemory::is_known(Time now, const Eigen::Vector2d& p_odom_m) const {
 
 bool ObstacleMemory::is_blocked(Time now, const Eigen::Vector2d& p_odom_m) const {
   const Cell* cell = find(now, place_of(p_odom_m));
-  return cell != nullptr && cell->is_blocked;
+  return cell != nullptr && cell->sightings >= kSightingsBlocked;
 }
 
 ObstacleMemory::Place ObstacleMemory::place_of(const Eigen::Vector2d& p_odom_m) {
@@ -110,9 +129,17 @@ const ObstacleMemory::Cell* ObstacleMemory::find(Time now, const Place& place) c
   return is_it ? &cell : nullptr;
 }
 
-void ObstacleMemory::set(const Eigen::Vector2d& p_odom_m, bool is_blocked, Time fades) {
+void ObstacleMemory::set(Time now, const Eigen::Vector2d& p_odom_m, bool is_blocked, double for_s) {
   const Place place = place_of(p_odom_m);
-  cells_[slot_of(place)] = {place.column, place.row, is_blocked, fades};
+  Cell& cell = cells_[slot_of(place)];
+  if (find(now, place) == nullptr) cell = Cell{place.column, place.row, 0, {}, {}, false};
+  const bool is_same_frame = cell.seen == now;
+  if (is_same_frame && (cell.seen_blocked || !is_blocked)) return;
+  const int undone = is_same_frame ? 1 : 0;  // floor beside an end in one cell: the end counts
+  cell.sightings = std::clamp(cell.sightings + (is_blocked ? 1 + undone : -1), 0, kSightingsMax);
+  cell.fades = now + to_duration(for_s);
+  cell.seen = now;
+  cell.seen_blocked = is_blocked;
 }
 
 }  // namespace roomwise::pilot

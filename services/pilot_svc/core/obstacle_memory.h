@@ -25,6 +25,10 @@ struct FreeView {
 /// With f = 0 the floor did not come into view: unless something is remembered there already,
 /// something is guessed to stand between what a Kinect can measure and where floor is first seen.
 ///
+/// Each reading is the median of a bin and its neighbours, and a cell counts as blocked from the
+/// second frame on that sees something end there, less those that see floor only: a single bin that
+/// ends short in a single frame turns nobody aside.
+///
 /// Cells are a torus of 6.4 m: what is farther apart shares one, and the newer place wins.
 class ObstacleMemory {
  public:
@@ -53,8 +57,10 @@ class ObstacleMemory {
   struct Cell {
     std::int32_t column = INT32_MIN;
     std::int32_t row = INT32_MIN;
-    bool is_blocked = false;
+    int sightings = 0;
     Time fades{};
+    Time seen{};
+    bool seen_blocked = false;  ///< in the frame of that time
   };
   struct Place {
     std::int32_t column;
@@ -65,8 +71,9 @@ class ObstacleMemory {
   static std::size_t slot_of(const Place& place);
   const Cell* find(Time now, const Place& place) const;
   bool is_blocked(Time now, const Eigen::Vector2d& p_odom_m) const;
-  void set(const Eigen::Vector2d& p_odom_m, bool is_blocked, Time fades);
-  void see_ray(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
+  void set(Time now, const Eigen::Vector2d& p_odom_m, bool is_blocked, double for_s);
+  void see_floor(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
+  void see_end(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
   void guess(Time now, const Pose2& T_odom_robot, double bearing_rad);
 
   PilotParams params_;

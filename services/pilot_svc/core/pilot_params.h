@@ -23,12 +23,12 @@ struct PilotParams {
   double way_min_m = 0.45;         ///< a direction with less free way is not taken
   double turn_cost_ratio = 0.35;   ///< of a direction's score, for turning half round
   double keep_bonus_ratio = 0.15;  ///< hysteresis: what another direction must be better by
-  double visit_cost_ratio = 0.6;   ///< for a place visited just now
+  double visit_cost_ratio = 1.0;   ///< for a place visited just now
   double visit_fades_s = 120.0;    ///< visits count less by a factor e after this
 
-  double look_every_m = 0.4;    ///< circle: turns toward the object after that way ...
-  double look_every_rad = 0.7;  ///< ... or that turn
-  double look_turn_rad = 0.7;   ///< by this much
+  double look_every_m = 0.3;    ///< circle: turns toward the object after that way ...
+  double look_every_rad = 0.5;  ///< ... or that turn
+  double look_turn_rad = 0.9;   ///< by this much
   double look_s = 0.25;         ///< and stays so long
 
   double reached_m = 0.10;     ///< go_to: near enough

@@ -9,6 +9,7 @@
 namespace roomwise::pilot {
 namespace {
 
+constexpr Duration kFrame = std::chrono::milliseconds(33);
 constexpr Time kNow = time_from_utime(1'000'000'000);
 
 class ObstacleMemoryTest : public testing::Test {
@@ -16,7 +17,12 @@ class ObstacleMemoryTest : public testing::Test {
   bool see(double free_m, double unknown = 0.0) {
     const std::vector<double> free{free_m};
     const std::vector<double> ratio{unknown};
-    return memory_.see(now_, {}, {0.0, 0.02, free, ratio});
+    const FreeView view{0.0, 0.02, free, ratio};
+    for (int frame = 0; frame < 4; ++frame) {
+      now_ += kFrame;
+      if (!memory_.see(now_, {}, view)) return false;
+    }
+    return true;
   }
   std::vector<Eigen::Vector2d> points(const Pose2& T_odom_robot = {}) {
     std::vector<Eigen::Vector2d> result;
@@ -56,6 +62,19 @@ TEST_F(ObstacleMemoryTest, SomethingTooNearToBeMeasuredIsGuessedOnlyWhereNothing
   EXPECT_NEAR(points()[0].x(), 0.625, 0.05);
   ASSERT_TRUE(see(0.0));
   EXPECT_EQ(points().size(), 1U);
+}
+
+TEST_F(ObstacleMemoryTest, OneSightingOrOneBinAloneTurnsNobodyAside) {
+  const std::vector<double> known{0.0, 0.0, 0.0};
+  const std::vector<double> lone{5.0, 1.5, 5.0};
+  const std::vector<double> wide{1.5, 1.5, 1.5};
+  for (int i = 0; i < 5; ++i)
+    ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, lone, known}));
+  EXPECT_TRUE(points().empty());
+  ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, wide, known}));
+  EXPECT_TRUE(points().empty());
+  ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, wide, known}));
+  EXPECT_FALSE(points().empty());
 }
 
 TEST_F(ObstacleMemoryTest, ABearingOutOfViewSaysNothing) {

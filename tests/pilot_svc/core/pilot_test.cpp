@@ -19,7 +19,7 @@ class PilotTest : public testing::Test {
     Motion motion;
     for (int i = 0; i < static_cast<int>(for_s * 20.0); ++i) {
       now_ += std::chrono::milliseconds(50);
-      if (odometry) EXPECT_NE(pilot_.add_odometry({now_, {}, 0}), InputResult::kNotFinite);
+      if (odometry) (void)pilot_.add_odometry({now_, {}, 0});
       if (view) (void)pilot_.add_view(now_, {-0.4, 0.02, free_m_, unknown_});
       motion = pilot_.tick(now_);
     }

@@ -36,9 +36,9 @@ constexpr ViewNoise kNoisy{.range_sigma_ratio = 0.02, .dropout_probability = 0.0
 
 INSTANTIATE_TEST_SUITE_P(
     Scenarios, WanderDrive,
-    testing::Values(WanderCase{"living_room", {}, 0.5}, WanderCase{"living_room", kNoisy, 0.5},
-                    WanderCase{"apartment", {}, 0.3}, WanderCase{"apartment", kNoisy, 0.3},
-                    WanderCase{"crowd", {}, 0.3}, WanderCase{"crowd", kNoisy, 0.3}));
+    testing::Values(WanderCase{"living_room", {}, 0.4}, WanderCase{"living_room", kNoisy, 0.4},
+                    WanderCase{"apartment", {}, 0.2}, WanderCase{"apartment", kNoisy, 0.2},
+                    WanderCase{"crowd", {}, 0.15}, WanderCase{"crowd", kNoisy, 0.15}));
 
 }  // namespace
 }  // namespace roomwise::pilot

@@ -39,6 +39,18 @@ double KinematicWorld::clearance_m() const {
   return simulator::clearance_m(body_plan_, T_world_robot().position_m()) - kRadius_m;
 }
 
+/// True if the body touches something nearer than now on the way so far ahead.
+bool KinematicWorld::meets(double way_m) const {
+  const double gap_now_m = clearance_m();
+  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+    const Eigen::Vector2d at_m =
+        T_world_robot().position_m() + share * way_m * unit(T_world_robot().heading_rad);
+    const double gap_m = simulator::clearance_m(body_plan_, at_m) - kRadius_m;
+    if (gap_m <= 0.0 && gap_m <= gap_now_m) return true;
+  }
+  return false;
+}
+
 /// Slower the nearer the rim would come to anything within the way it needs to stop, and no faster
 /// a change than safety_svc grants.
 Motion KinematicWorld::grant(const Motion& asked) const {
@@ -46,13 +58,10 @@ Motion KinematicWorld::grant(const Motion& asked) const {
   const double rate_mps = 0.5 * kStep_s;
   granted.speed_mps = std::clamp(asked.speed_mps, granted_.speed_mps - 2.0 * rate_mps,
                                  granted_.speed_mps + rate_mps);
+  const double reaction_s = scene_.walkers.empty() ? 0.3 : 1.2;  // they come nearer meanwhile
   const double sign = granted.speed_mps < 0.0 ? -1.0 : 1.0;
-  while (std::abs(granted.speed_mps) > 0.0) {
-    const double way_m = 0.3 * std::abs(granted.speed_mps) + 0.03;
-    const Eigen::Vector2d ahead_m =
-        T_world_robot().position_m() + sign * way_m * unit(T_world_robot().heading_rad);
-    const double gap_m = simulator::clearance_m(body_plan_, ahead_m) - kRadius_m;
-    if (gap_m > 0.0 || gap_m > clearance_m()) break;
+  while (std::abs(granted.speed_mps) > 0.0 &&
+         meets(sign * (reaction_s * std::abs(granted.speed_mps) + 0.03))) {
     granted.speed_mps = std::abs(granted.speed_mps) < 0.02 ? 0.0 : 0.7 * granted.speed_mps;
   }
   return granted;
@@ -77,9 +86,13 @@ void KinematicWorld::step(const Motion& asked) {
   const double turn_rad = (right_m - left_m) / kBase_m;
   const Eigen::Vector2d way_m = 0.5 * (left_m + right_m) * unit(0.5 * turn_rad);
   T_odom_robot_ = compose(T_odom_robot_, {way_m.x(), way_m.y(), turn_rad});
-  const bool touches = !motion_.touches().empty();
-  if (touches && !touched_ && std::abs(granted_.speed_mps) > 0.1) ++contacts_;
-  touched_ = touches;
+  const Eigen::Vector2d velocity_mps = granted_.speed_mps * unit(T_world_robot().heading_rad);
+  const auto& touches = motion_.touches();
+  const bool runs_into = std::any_of(touches.begin(), touches.end(), [&](const auto& touch) {
+    return touch.direction.dot(velocity_mps) > 0.1;
+  });
+  if (runs_into && !runs_into_) ++contacts_;
+  runs_into_ = runs_into;
 }
 
 double KinematicWorld::free_range_m(double bearing_rad) {

@@ -36,11 +36,12 @@ class KinematicWorld {
   const simulator::GroundPlan& body_plan() const { return body_plan_; }
   /// Between the rim and the nearest body.
   double clearance_m() const;
-  /// Times something was met faster than 0.1 m/s.
+  /// Times it ran into something faster than 0.1 m/s, by its own speed toward it.
   int contacts() const { return contacts_; }
   double speed_mps() const { return granted_.speed_mps; }
 
  private:
+  bool meets(double way_m) const;
   Motion grant(const Motion& asked) const;
   double free_range_m(double bearing_rad);
 
@@ -55,7 +56,7 @@ class KinematicWorld {
   Motion granted_;
   double time_s_ = 0.0;
   int contacts_ = 0;
-  bool touched_ = false;
+  bool runs_into_ = false;
   std::vector<double> free_range_m_;
   std::vector<double> unknown_ratio_;
 };
