@@ -133,7 +133,11 @@ TEST(RecordedFrames, FloorIsFoundWhateverHeightIsClaimed) {
         "claimed %.1f m: floor IoU %.4f, other called floor %.4f, floor called standing %.4f\n",
         claim.height_m, counts.iou(), wrong_ratio,
         counts.missed_as_standing / (counts.right + counts.missed));
-    EXPECT_GE(counts.iou(), 0.98) << claim.height_m;
+    // The masks call everything within 3 cm of one plane floor, the feet of cupboards and chairs
+    // too; what is called standing there is counted as missed.
+    EXPECT_GE(counts.iou(), 0.95) << claim.height_m;
+    EXPECT_GE((counts.right + counts.missed_as_standing) / (counts.right + counts.missed), 0.99)
+        << claim.height_m;
     EXPECT_LE(wrong_ratio, 0.002) << claim.height_m;
   }
 }
