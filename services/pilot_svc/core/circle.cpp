@@ -11,11 +11,12 @@ namespace roomwise::pilot {
 namespace {
 
 constexpr double kQuarter_rad = std::numbers::pi / 2.0;
-constexpr double kLeanGain_radpm = 4.0;
+constexpr double kLeanGain_radpm = 5.0;
 constexpr double kLeanMax_rad = 0.8;
 constexpr double kAhead_rad = 0.5;  // either side: what counts as ahead
 constexpr double kOnCourse_rad = 0.2;
-constexpr double kCareful_ratio = 0.7;  // of the speed: the band is narrow
+constexpr double kFirm_ratio = 1.5;     // of the turn gain, and ...
+constexpr double kCareful_ratio = 0.6;  // of the speed: the band is narrow
 constexpr double kLost_m = 1.0;         // farther than wanted: no longer round it
 
 }  // namespace
@@ -24,7 +25,9 @@ Circle::Circle(const Goal& goal, const PilotParams& params)
     : params_(params),
       goal_(goal),
       speed_mps_(speed_of(goal, params)),
-      sense_(goal.circle_sense > 0 ? 1.0 : -1.0) {}
+      sense_(goal.circle_sense > 0 ? 1.0 : -1.0) {
+  params_.turn_gain_hz *= kFirm_ratio;
+}
 
 Step Circle::step(const Surroundings& around) {
   count_turn(around);
@@ -91,7 +94,7 @@ Step Circle::run_around(const Surroundings& around) {
 double Circle::wanted_m(const Surroundings& around, double object_m) const {
   // Of many cells that may be half a cell off the nearest is taken: that one lies too near.
   const double wanted =
-      params_.robot_radius_m + goal_.circle_distance_m - 0.25 * ObstacleMemory::kCell_m;
+      params_.robot_radius_m + goal_.circle_distance_m - 0.5 * ObstacleMemory::kCell_m;
   const auto other_m = nearest(around, -2.3, -0.7);
   if (!other_m) return wanted;
   return std::min(wanted, 0.5 * (object_m + other_m->norm()));
