@@ -23,6 +23,12 @@ double height_above_floor_m(const FloorView& floor, const PinholeCamera& camera,
 
 }  // namespace
 
+void CreaseFinder::reserve(std::size_t points) {
+  sums_.reserve(points + 1);
+  piece_.reserve(points);
+  candidates_.reserve(points);
+}
+
 void CreaseFinder::prepare(const std::vector<ScanPoint>& points, const DisparityTable& table) {
   sums_.assign(1, Sums{});
   piece_.clear();

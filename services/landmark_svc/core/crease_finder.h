@@ -29,7 +29,9 @@ struct CreaseParams {
 /// (n1 n1' / s1^2 + n2 n2' / s2^2)^-1.
 class CreaseFinder {
  public:
-  /// Appends creases to `landmarks`. Allocates only if there are more points than ever before.
+  /// Makes room for scans of so many points: find() allocates nothing then.
+  void reserve(std::size_t points);
+  /// Appends creases to `landmarks`.
   void find(const VirtualScan& scan, const FloorView& floor, const PinholeCamera& camera,
             const DisparityTable& table, int width_px, const CreaseParams& params,
             std::vector<Landmark>& landmarks, RejectCounts& rejected);

@@ -147,7 +147,12 @@ void LandmarkDetector::reserve(const DepthImage& depth) {
   estimator_.reserve(depth.height_px);
   chain_pixels_.reserve(rows);
   pieces_.reserve(rows);
-  landmarks_.reserve(depth.size() / 3 + 1);
+  // A chain has three edges, a crease a column of its own.
+  const auto columns = static_cast<std::size_t>(depth.width_px);
+  landmarks_.reserve(depth.size() / 3 + 1 + columns);
+  scan_.reserve(depth.width_px);
+  crease_finder_.reserve(columns);
+  moving_.reserve(depth.width_px);
 }
 
 }  // namespace roomwise::landmark

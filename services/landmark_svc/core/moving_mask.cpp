@@ -38,6 +38,13 @@ bool MovingMask::was_free(const Past& past, const Eigen::Vector2d& p_odom_m,
   return true;
 }
 
+void MovingMask::reserve(int width_px) {
+  const auto width = static_cast<std::size_t>(width_px);
+  for (Past& past : past_) past.along_m.reserve(width);
+  came_.reserve(width);
+  moving_m_.reserve(width);
+}
+
 void MovingMask::remember(std::int64_t utime, const Pose2& T_odom_robot, const VirtualScan& scan,
                           int width_px) {
   Past& past = past_[next_];

@@ -27,6 +27,8 @@ struct MovingParams {
 /// Keeps kScans scans, 0.1 s apart or more; fixed memory after the first.
 class MovingMask {
  public:
+  /// Makes room for scans of that width: update() allocates nothing then.
+  void reserve(int width_px);
   /// Looks at a frame's scan. `width_px` columns; times that go back start anew.
   void update(std::int64_t utime, const Pose2& T_odom_robot, const VirtualScan& scan,
               const PinholeCamera& camera, int width_px, const MovingParams& params);

@@ -26,6 +26,11 @@ RowLine row_line(const Eigen::Vector3d& g, const PinholeCamera& camera, int v_px
 
 }  // namespace
 
+void VirtualScan::reserve(int width_px) {
+  columns_.reserve(static_cast<std::size_t>(width_px));
+  points_.reserve(static_cast<std::size_t>(width_px));
+}
+
 void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
   Cluster* place = nullptr;
   for (Cluster& cluster : clusters) {

@@ -38,7 +38,9 @@ struct ScanPoint {
 /// nearest clusters while the rows go by, so one pass over the image does.
 class VirtualScan {
  public:
-  /// Replaces points(). Allocates only if the image got wider.
+  /// Makes room for images of that width: make() allocates nothing then.
+  void reserve(int width_px);
+  /// Replaces points().
   void make(const DepthImage& depth, const PinholeCamera& camera, const DisparityTable& table,
             const FloorView& floor, const Eigen::Isometry3d& T_robot_camera,
             const PixelRectangle& region, const VirtualScanParams& params);

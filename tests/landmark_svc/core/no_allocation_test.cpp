@@ -23,9 +23,9 @@ long allocations_on(const RgbdFrame& frame, const char* method) {
   LandmarkDetector detector(params);
   RgbdFrame first = frame;
   std::fill(first.depth.steps.begin(), first.depth.steps.end(), std::uint16_t{0});
-  EXPECT_EQ(detector.detect(first), DetectResult::kOk);
+  EXPECT_EQ(detector.detect(first, Pose2{}), DetectResult::kOk);
   const long before = allocations_so_far();
-  const DetectResult result = detector.detect(frame);
+  const DetectResult result = detector.detect(frame, Pose2{});
   const long after = allocations_so_far();
   EXPECT_EQ(result, DetectResult::kOk);
   return after - before;

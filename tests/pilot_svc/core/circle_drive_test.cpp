@@ -44,6 +44,10 @@ struct CircleCase {
   ViewNoise noise;
 };
 
+void PrintTo(const CircleCase& c, std::ostream* out) {
+  *out << (c.sense > 0 ? "counter-clockwise" : "clockwise");
+}
+
 class CircleDrive : public testing::TestWithParam<CircleCase> {};
 
 TEST_P(CircleDrive, KeepsHalfAMetreRoundASofa) {

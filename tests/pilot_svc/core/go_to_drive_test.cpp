@@ -13,6 +13,8 @@ struct GoToCase {
   State end;
 };
 
+void PrintTo(const GoToCase& c, std::ostream* out) { *out << "to " << c.x_m << ", " << c.y_m; }
+
 class GoToDrive : public testing::TestWithParam<GoToCase> {};
 
 TEST_P(GoToDrive, ReachesThePointOrSaysThatThereIsNoWay) {

@@ -15,6 +15,10 @@ struct WanderCase {
   double covered_least;  ///< of the floor it can get to, in 10 minutes
 };
 
+void PrintTo(const WanderCase& c, std::ostream* out) {
+  *out << c.scenario << (c.noise.range_sigma_ratio > 0.0 ? ", noisy" : "");
+}
+
 class WanderDrive : public testing::TestWithParam<WanderCase> {};
 
 TEST_P(WanderDrive, TenMinutesWithoutContactCoverTheFloor) {
