@@ -94,6 +94,9 @@ class MrptSlam {
     auto frame = to_frame(message);
     auto action = to_action(motion_);
     motion_ = {};
+    for (const landmark_observation_t& seen : message.landmarks) {
+      has_identities_ = has_identities_ || seen.identity >= 0;
+    }
     slam_.processActionObservation(action, frame);
     publish(message.utime);
   }
@@ -117,8 +120,9 @@ class MrptSlam {
     for (std::size_t i = 0; i < places.size(); ++i) {
       map_landmark_t& landmark = map.map_landmarks.emplace_back();
       const auto identity = identities.find(static_cast<unsigned>(i));
+      const bool is_known = has_identities_ && identity != identities.end();
       landmark.map_id = static_cast<std::int64_t>(i);
-      landmark.identity = identity == identities.end() ? -1 : static_cast<int>(identity->second);
+      landmark.identity = is_known ? static_cast<int>(identity->second) : -1;
       landmark.map_x_m = places[i].x;
       landmark.map_y_m = places[i].y;
     }
@@ -129,6 +133,7 @@ class MrptSlam {
   Bus& bus_;
   mrpt::slam::CRangeBearingKFSLAM2D slam_;
   ekf::MotionIncrement motion_;
+  bool has_identities_ = false;  ///< or else those it hands out are its own
 };
 
 }  // namespace
