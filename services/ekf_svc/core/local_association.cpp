@@ -108,10 +108,9 @@ bool LocalAssociation::are_all_taken(std::size_t offer) const {
   const std::size_t first = offers_[offer].first_candidate;
   const std::size_t end =
       offer + 1 < offers_.size() ? offers_[offer + 1].first_candidate : candidates_.size();
-  return first < end &&
-         std::all_of(candidates_.begin() + static_cast<std::ptrdiff_t>(first),
-                     candidates_.begin() + static_cast<std::ptrdiff_t>(end),
-                     [this](std::size_t landmark) { return is_taken_[landmark]; });
+  return first < end && std::all_of(candidates_.begin() + static_cast<std::ptrdiff_t>(first),
+                                    candidates_.begin() + static_cast<std::ptrdiff_t>(end),
+                                    [this](std::size_t landmark) { return is_taken_[landmark]; });
 }
 
 }  // namespace roomwise::ekf
