@@ -70,6 +70,18 @@ pilot::Hold to_hold(const safety_state_t& message) {
   return is_touched ? pilot::Hold::kTouched : pilot::Hold::kNone;
 }
 
+std::optional<Eigen::Vector2d> to_refusal(const safety_state_t& message) {
+  using Command = velocity_command_t;
+  constexpr double kStands_mps = 0.02;
+  const bool is_ahead = message.asked_speed_mps > kStands_mps;
+  const bool is_refused = message.speed_limit_mps < kStands_mps &&
+                          has_any(message, {Command::REASON_OBSTACLE, Command::REASON_REMEMBERED,
+                                            Command::REASON_UNKNOWN, Command::REASON_DROP_OFF});
+  const Eigen::Vector2d p_robot_m(message.nearest_x_m, message.nearest_y_m);
+  if (!is_ahead || !is_refused || p_robot_m == Eigen::Vector2d::Zero()) return std::nullopt;
+  return p_robot_m;
+}
+
 pilot_state_t to_state_message(const pilot::Report& report) {
   pilot_state_t message{};
   message.behaviour = static_cast<std::int8_t>(report.behaviour);

@@ -7,6 +7,7 @@ namespace roomwise::pilot {
 namespace {
 
 constexpr std::size_t kBinsMax = 1000;
+constexpr std::size_t kEdgeBins = 3;
 constexpr int kSightingsMax = 4;
 constexpr int kSightingsBlocked = 2;
 constexpr double kNearestReading_m = 0.45;  // no Kinect measures nearer
@@ -43,23 +44,39 @@ double median_m(const FreeView& view, std::size_t k) {
 
 }  // namespace
 
-ObstacleMemory::ObstacleMemory(const PilotParams& params) : params_(params), cells_(capacity()) {}
+ObstacleMemory::ObstacleMemory(const PilotParams& params)
+    : params_(params), cells_(capacity()), was_in_view_(kBinsMax, false) {}
 
 void ObstacleMemory::forget() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
 
 bool ObstacleMemory::see(Time now, const Pose2& T_odom_robot, const FreeView& view) {
   if (!is_view(view)) return false;
+  for (std::size_t k = 0; k < view.unknown_ratio.size(); ++k) {
+    if (view.unknown_ratio[k] < 1.0) was_in_view_[k] = true;
+  }
   for (const bool is_end : {false, true}) {
     for (std::size_t k = 0; k < view.free_range_m.size(); ++k) {
       if (view.unknown_ratio[k] >= 1.0) continue;  // not in view
       const double bearing_rad =
           view.first_bearing_rad + static_cast<double>(k) * view.bearing_step_rad;
       const double free_m = median_m(view, k);
-      if (is_end) see_end(now, T_odom_robot, bearing_rad, free_m);
+      if (is_end && is_well_in_view(k)) see_end(now, T_odom_robot, bearing_rad, free_m);
       if (!is_end) see_floor(now, T_odom_robot, bearing_rad, free_m);
     }
   }
   return true;
+}
+
+bool ObstacleMemory::is_well_in_view(std::size_t bin) const {
+  if (bin < kEdgeBins || bin + kEdgeBins >= kBinsMax) return false;
+  const auto first = was_in_view_.begin() + static_cast<std::ptrdiff_t>(bin - kEdgeBins);
+  return std::all_of(first, first + 2 * kEdgeBins + 1, [](bool was) { return was; });
+}
+
+void ObstacleMemory::refuse(Time now, const Eigen::Vector2d& p_odom_m) {
+  for (int sighting = 0; sighting < kSightingsBlocked; ++sighting) {
+    set(now + Duration{sighting}, p_odom_m, true, params_.refusal_memory_s);
+  }
 }
 
 void ObstacleMemory::see_floor(Time now, const Pose2& T_odom_robot, double bearing_rad,

@@ -27,7 +27,8 @@ struct FreeView {
 ///
 /// Each reading is the median of a bin and its neighbours, and a cell counts as blocked from the
 /// second frame on that sees something end there, less those that see floor only: a single bin that
-/// ends short in a single frame turns nobody aside.
+/// ends short in a single frame turns nobody aside. At the view's edges, where a bearing is in view
+/// only near by or only far off, ends say nothing.
 ///
 /// Cells are a torus of 6.4 m: what is farther apart shares one, and the newer place wins.
 class ObstacleMemory {
@@ -42,6 +43,9 @@ class ObstacleMemory {
   /// Takes up what was seen from `T_odom_robot`. False, and nothing changed, if its numbers are no
   /// view: counts that differ, none or more than 1000, or anything not finite.
   [[nodiscard]] bool see(Time now, const Pose2& T_odom_robot, const FreeView& view);
+
+  /// Something is said to stand there, though nobody saw it.
+  void refuse(Time now, const Eigen::Vector2d& p_odom_m);
 
   /// Replaces `points_robot_m` by what is remembered within reach, in a fixed order. Allocates
   /// nothing once the vector has room for capacity() points.
@@ -72,12 +76,14 @@ class ObstacleMemory {
   const Cell* find(Time now, const Place& place) const;
   bool is_blocked(Time now, const Eigen::Vector2d& p_odom_m) const;
   void set(Time now, const Eigen::Vector2d& p_odom_m, bool is_blocked, double for_s);
+  bool is_well_in_view(std::size_t bin) const;
   void see_floor(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
   void see_end(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
   void guess(Time now, const Pose2& T_odom_robot, double bearing_rad);
 
   PilotParams params_;
   std::vector<Cell> cells_;
+  std::vector<bool> was_in_view_;  // by bin
 };
 
 }  // namespace roomwise::pilot

@@ -95,7 +95,7 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
   // Afterwards, so that no neighbour opens what this one saw to end.
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const Ray ray = ray_of(bin);
-    if (ray.sees_floor()) close_end(now, ray);
+    if (ray.sees_floor() && is_well_in_view(bin)) close_end(now, ray);
   }
   return true;
 }
