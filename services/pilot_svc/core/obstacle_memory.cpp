@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace roomwise::pilot {
 namespace {
@@ -31,6 +32,18 @@ bool is_view(const FreeView& view) {
          all_finite(view.free_range_m) && all_finite(view.unknown_ratio);
 }
 
+/// First and last of the bins in view that are not at the view's edges.
+std::pair<std::size_t, std::size_t> bins_well_in_view(const FreeView& view) {
+  const auto is_in_view = [](double unknown) { return unknown < 1.0; };
+  const auto& ratios = view.unknown_ratio;
+  const auto first = std::find_if(ratios.begin(), ratios.end(), is_in_view);
+  const auto last = std::find_if(ratios.rbegin(), ratios.rend(), is_in_view);
+  const auto first_bin = static_cast<std::size_t>(first - ratios.begin());
+  const auto bins_to_last = static_cast<std::size_t>(ratios.rend() - last);
+  if (bins_to_last <= first_bin + 2 * kEdgeBins) return {1, 0};
+  return {first_bin + kEdgeBins, bins_to_last - 1 - kEdgeBins};
+}
+
 /// Of the bin and its neighbours that are in view.
 double median_m(const FreeView& view, std::size_t k) {
   const auto at = [&](std::size_t i) { return std::max(view.free_range_m[i], 0.0); };
@@ -44,33 +57,24 @@ double median_m(const FreeView& view, std::size_t k) {
 
 }  // namespace
 
-ObstacleMemory::ObstacleMemory(const PilotParams& params)
-    : params_(params), cells_(capacity()), was_in_view_(kBinsMax, false) {}
+ObstacleMemory::ObstacleMemory(const PilotParams& params) : params_(params), cells_(capacity()) {}
 
 void ObstacleMemory::forget() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
 
 bool ObstacleMemory::see(Time now, const Pose2& T_odom_robot, const FreeView& view) {
   if (!is_view(view)) return false;
-  for (std::size_t k = 0; k < view.unknown_ratio.size(); ++k) {
-    if (view.unknown_ratio[k] < 1.0) was_in_view_[k] = true;
-  }
+  const auto [first, last] = bins_well_in_view(view);
   for (const bool is_end : {false, true}) {
     for (std::size_t k = 0; k < view.free_range_m.size(); ++k) {
       if (view.unknown_ratio[k] >= 1.0) continue;  // not in view
       const double bearing_rad =
           view.first_bearing_rad + static_cast<double>(k) * view.bearing_step_rad;
       const double free_m = median_m(view, k);
-      if (is_end && is_well_in_view(k)) see_end(now, T_odom_robot, bearing_rad, free_m);
+      if (is_end && k >= first && k <= last) see_end(now, T_odom_robot, bearing_rad, free_m);
       if (!is_end) see_floor(now, T_odom_robot, bearing_rad, free_m);
     }
   }
   return true;
-}
-
-bool ObstacleMemory::is_well_in_view(std::size_t bin) const {
-  if (bin < kEdgeBins || bin + kEdgeBins >= kBinsMax) return false;
-  const auto first = was_in_view_.begin() + static_cast<std::ptrdiff_t>(bin - kEdgeBins);
-  return std::all_of(first, first + 2 * kEdgeBins + 1, [](bool was) { return was; });
 }
 
 void ObstacleMemory::refuse(Time now, const Eigen::Vector2d& p_odom_m) {

@@ -76,14 +76,12 @@ class ObstacleMemory {
   const Cell* find(Time now, const Place& place) const;
   bool is_blocked(Time now, const Eigen::Vector2d& p_odom_m) const;
   void set(Time now, const Eigen::Vector2d& p_odom_m, bool is_blocked, double for_s);
-  bool is_well_in_view(std::size_t bin) const;
   void see_floor(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
   void see_end(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
   void guess(Time now, const Pose2& T_odom_robot, double bearing_rad);
 
   PilotParams params_;
   std::vector<Cell> cells_;
-  std::vector<bool> was_in_view_;  // by bin
 };
 
 }  // namespace roomwise::pilot

@@ -177,6 +177,8 @@ Motion Pilot::drive(Time now) {
   if (hold_ != Hold::kTouched && !stuck_.is_stuck(now, T_odom_robot, step.motion)) {
     return step.motion;
   }
+  // Whatever it believes to stand there did not help: safety_svc knows what must not be entered.
+  memory_.forget();
   if (!recovery_.begin(now, T_odom_robot)) end(State::kFailed, Failure::kStuck);
   report_.recoveries = recovery_.count();
   return {};
