@@ -15,6 +15,9 @@ constexpr double kTouched_m = 0.10;  // thickness of what was felt
 constexpr double kTouched_rad = 1.05;
 constexpr double kTouchedStep_rad = 0.1;
 constexpr std::size_t kBinsMax = 1000;
+/// The shadow a Kinect's projector, 7.5 cm beside its camera, leaves behind the edge of something
+/// 0.5 m off. Darkness as narrow as this need not be something too near to be measured.
+constexpr double kShadow_rad = 0.15;
 constexpr std::size_t kEdgeBins = 3;     // at the view's edges, where pixels come and go
 constexpr double kBearingMax_rad = 1.5;  // farther to the side no camera that looks ahead sees
 
@@ -92,7 +95,7 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
                .direction = {std::cos(heading_rad), std::sin(heading_rad)},
                .free_m = std::clamp(view.free_range_m[bin], 0.0, kReach_m),
                .seen_from_m = view.floor_seen_from_m / std::cos(bearing_rad),
-               .is_dark = is_dark,
+               .is_dark = is_dark && dark_round_rad(view, bin) >= kShadow_rad,
                .end = view.has_drop_off ? Reason::kDropOff
                       : is_dark         ? Reason::kUnknown
                                         : Reason::kObstacle};
@@ -120,6 +123,17 @@ bool ObstacleMemory::is_well_in_view(std::size_t bin) const {
   if (bin < kEdgeBins || bin + kEdgeBins >= kBinsMax) return false;
   const auto first = was_in_view_.begin() + static_cast<std::ptrdiff_t>(bin - kEdgeBins);
   return std::all_of(first, first + 2 * kEdgeBins + 1, [](bool was) { return was; });
+}
+
+double ObstacleMemory::dark_round_rad(const FreeView& view, std::size_t bin) const {
+  const auto is_dark = [&](std::size_t k) {
+    return was_in_view_[k] && view.unknown_ratio[k] > kUnknownRatio;
+  };
+  std::size_t first = bin;
+  while (first > 0 && is_dark(first - 1)) --first;
+  std::size_t end = bin;
+  while (end < view.unknown_ratio.size() && is_dark(end)) ++end;
+  return static_cast<double>(end - first) * std::abs(view.bearing_step_rad);
 }
 
 void ObstacleMemory::open(const Instant& now, const Ray& ray) {

@@ -42,11 +42,11 @@ struct FreeView {
 ///   - nearer than s, where nothing is known, is overlooked: rays pass above it;
 ///   - f < s: the floor came not into view. If the pixels have readings, what stands there is no
 ///     nearer than a Kinect measures and no farther than s: that is unknown again, or, before
-///     something closed that explains the view, overlooked. If most have none, anything may stand
-///     anywhere: all of it is unknown again. (But for three bearings at either edge of what was
-///     ever in view: there pixels come and go.)
-/// At the edges of each view, where bearings are in view in part, nothing is closed. Only seeing the
-/// floor opens what was closed. Free fades to overlooked, closed to unknown.
+///     something closed that explains the view, overlooked. If most have none, over a wider angle
+///     than shadows have, anything may stand anywhere: all of it is unknown again. (But for three
+///     bearings at either edge of what was ever in view: there pixels come and go.)
+/// At the edges of each view, where bearings are in view in part, nothing is closed. Only seeing
+/// the floor opens what was closed. Free fades to overlooked, closed to unknown.
 ///
 /// Cells are a torus of fixed size: what is 6.4 m apart shares one, and the newer place wins.
 class ObstacleMemory {
@@ -89,6 +89,8 @@ class ObstacleMemory {
   void close_end(const Instant& now, const Ray& ray);
   void set(const Instant& now, const Eigen::Vector2d& p_odom_m, Ground ground, Reason why);
   bool is_well_in_view(std::size_t bin) const;
+  /// Width of the bearings without readings that `bin` is one of.
+  double dark_round_rad(const FreeView& view, std::size_t bin) const;
   Cell& cell_of(std::int32_t column, std::int32_t row);
   const Cell& cell_of(std::int32_t column, std::int32_t row) const;
 
