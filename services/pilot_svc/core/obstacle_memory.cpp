@@ -11,6 +11,7 @@ constexpr std::size_t kBinsMax = 1000;
 constexpr std::size_t kEdgeBins = 3;
 constexpr int kSightingsMax = 4;
 constexpr int kSightingsBlocked = 2;
+constexpr double kFloorNeeded_m = 0.25;      // less of it in view may not be noticed
 constexpr double kNearestReading_m = 0.45;  // no Kinect measures nearer
 
 Duration to_duration(double time_s) { return Duration{static_cast<std::int64_t>(time_s * 1e6)}; }
@@ -99,7 +100,7 @@ void ObstacleMemory::see_end(Time now, const Pose2& T_odom_robot, double bearing
 }
 
 void ObstacleMemory::guess(Time now, const Pose2& T_odom_robot, double bearing_rad) {
-  const double to_m = params_.floor_seen_from_m + 2.0 * kCell_m;
+  const double to_m = params_.floor_seen_from_m + kFloorNeeded_m;
   for (double r = 0.3; r < to_m; r += kCell_m) {
     if (is_blocked(now, on_ray(T_odom_robot, bearing_rad, r))) return;
   }

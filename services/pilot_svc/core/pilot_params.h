@@ -27,7 +27,7 @@ struct PilotParams {
   double visit_cost_ratio = 1.0;   ///< for a place visited just now
   double visit_fades_s = 120.0;    ///< visits count less by a factor e after this
 
-  double look_every_m = 0.3;    ///< circle: turns toward the object after that way ...
+  double look_every_m = 0.25;   ///< circle: turns toward the object after that way ...
   double look_every_rad = 0.5;  ///< ... or that turn
   double look_turn_rad = 0.9;   ///< by this much
   double look_s = 0.25;         ///< and stays so long

@@ -1,6 +1,7 @@
 #include "tests/pilot_svc/trial/trial.h"
 
 #include <chrono>
+#include <csignal>
 #include <stdexcept>
 
 #include "common/bus/lcm_bus.h"
@@ -12,6 +13,8 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+
+volatile std::sig_atomic_t was_asked_to_end = 0;
 
 /// Listens for the judge and gives the goal until pilot_svc says it has it.
 class Watch {
@@ -54,7 +57,7 @@ class Watch {
     const std::string ended = chain_.ended();
     if (!ended.empty()) return give_up("ended by itself:" + ended);
     if (!has_begun_ && now - started_ > seconds(30)) return give_up("the drive does not begin");
-    if (judge_.verdict().lasted_s > trial_.patience_s) bus_.stop();
+    if (judge_.verdict().lasted_s > trial_.patience_s || was_asked_to_end != 0) bus_.stop();
   }
 
   void give_goal(Time now) {
@@ -89,6 +92,8 @@ simulator::Scene scene_of(const TrialSetup& setup) {
 }
 
 Verdict run_trial(const Trial& trial) {
+  // So that the services end with it.
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { was_asked_to_end = 1; });
   TrialChain chain(trial.setup);
   return Watch(trial, chain).run();
 }
