@@ -20,7 +20,9 @@ enum class DecodeResult {
 
 /// Decodes `bytes` into `message`. Nothing a sender can put on the wire makes this throw, read out
 /// of bounds or allocate more than a small multiple of `bytes`: lcm-gen 1.3.1's decoder would
-/// (count -1: std::length_error; count 2e9: 8 GB). On failure `message` is unspecified.
+/// (count -1: std::length_error; count 2e9: 8 GB). On failure `message` is unspecified. What
+/// `message` held before leaves no trace: by itself that decoder would keep old elements of a list
+/// that is empty now.
 template <class Message>
 [[nodiscard]] DecodeResult decode(std::span<const std::uint8_t> bytes, Message& message) {
   constexpr std::size_t kFingerprintBytes = 8;
@@ -33,8 +35,10 @@ template <class Message>
   if (!WireGuard<Message>::counts_fit(cursor)) return DecodeResult::kBadCounts;
   if (cursor.left() != 0) return DecodeResult::kTrailing;
 
-  const int read = message.decode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return read == static_cast<int>(bytes.size()) ? DecodeResult::kOk : DecodeResult::kUndecodable;
+  const int size = static_cast<int>(bytes.size());
+  if (message.decode(bytes.data(), 0, size) != size) return DecodeResult::kUndecodable;
+  WireGuard<Message>::fit_lists(message);
+  return DecodeResult::kOk;
 }
 
 /// Encodes `message` into `bytes`, reusing its memory. Throws std::logic_error if a count member

@@ -67,6 +67,7 @@ class WireCursor {
 /// Made for every message by lcmtypes/generate:
 ///   static bool counts_fit(WireCursor&)       the counts on the wire fit the bytes that follow
 ///   static bool counts_match(const Message&)  count members equal the sizes of their vectors
+///   static void fit_lists(Message&)           gives vectors the sizes their count members say
 template <class Message>
 struct WireGuard;
 

@@ -62,12 +62,27 @@ pilot::Hold to_hold(const safety_state_t& message) {
       has_any(message,
               {Command::REASON_ESTOP, Command::REASON_NO_CAMERA, Command::REASON_NO_ODOMETRY,
                Command::REASON_NO_CREATE_STATE, Command::REASON_CLOCK, Command::REASON_MODE,
-               Command::REASON_WHEEL_DROP, Command::REASON_OVERCURRENT, Command::REASON_TILT,
-               Command::REASON_CHARGING});
+               Command::REASON_WHEEL_DROP, Command::REASON_OVERCURRENT, Command::REASON_CHARGING});
   if (is_held) return pilot::Hold::kHeld;
   const bool is_touched =
       has_any(message, {Command::REASON_BUMP, Command::REASON_CLIFF, Command::REASON_WALL});
   return is_touched ? pilot::Hold::kTouched : pilot::Hold::kNone;
+}
+
+std::optional<Eigen::Vector2d> to_refusal(const safety_state_t& message) {
+  using Command = velocity_command_t;
+  constexpr double kStands_mps = 0.02;
+  const bool is_ahead = message.asked_speed_mps > kStands_mps;
+  // With the floor out of sight it may turn: what fills the view stands just ahead.
+  constexpr double kJustAhead_m = 0.3;
+  if (is_ahead && has_any(message, {Command::REASON_TILT}))
+    return Eigen::Vector2d(kJustAhead_m, 0.0);
+  const bool is_refused = message.speed_limit_mps < kStands_mps &&
+                          has_any(message, {Command::REASON_OBSTACLE, Command::REASON_REMEMBERED,
+                                            Command::REASON_UNKNOWN, Command::REASON_DROP_OFF});
+  const Eigen::Vector2d p_robot_m(message.nearest_x_m, message.nearest_y_m);
+  if (!is_ahead || !is_refused || p_robot_m == Eigen::Vector2d::Zero()) return std::nullopt;
+  return p_robot_m;
 }
 
 pilot_state_t to_state_message(const pilot::Report& report) {

@@ -41,8 +41,10 @@ PilotService::PilotService(Bus& bus, const Params& params)
   bus_.subscribe(channels::kOdometry, [this](const odometry_t& m) { on_odometry(m); });
   bus_.subscribe(channels::kSegments, [this](const segmentation_t& m) { on_segments(m); });
   bus_.subscribe(channels::kPose, [this](const pose_t& m) { on_pose(m); });
-  bus_.subscribe(channels::kSafetyState,
-                 [this](const safety_state_t& m) { pilot_.set_hold(to_hold(m)); });
+  bus_.subscribe(channels::kSafetyState, [this](const safety_state_t& m) {
+    pilot_.set_hold(to_hold(m));
+    if (const auto p_robot_m = to_refusal(m)) pilot_.add_refusal(*p_robot_m);
+  });
 }
 
 void PilotService::on_goal(const pilot_goal_t& message) {

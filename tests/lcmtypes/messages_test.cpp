@@ -237,5 +237,18 @@ TEST(Decode, RefusesAStringWithANulInside) {
   EXPECT_EQ(decode(std::span<const std::uint8_t>(bytes), message), DecodeResult::kBadCounts);
 }
 
+TEST(Decode, AReusedMessageKeepsNothingOfTheOneBefore) {
+  safety_state_t message{};
+  message.reasons = {velocity_command_t::REASON_MODE};
+  message.reason_count = 1;
+  std::vector<std::uint8_t> full;
+  std::vector<std::uint8_t> empty;
+  encode(message, full);
+  encode(safety_state_t{}, empty);
+  ASSERT_EQ(decode(full, message), DecodeResult::kOk);
+  ASSERT_EQ(decode(empty, message), DecodeResult::kOk);
+  EXPECT_TRUE(message.reasons.empty());
+}
+
 }  // namespace
 }  // namespace roomwise

@@ -36,6 +36,15 @@ std::optional<Direction> DirectionChoice::choose(const Surroundings& around,
   return best;
 }
 
+std::optional<Direction> DirectionChoice::kept(const Surroundings& around) const {
+  if (!kept_heading_rad_) return std::nullopt;
+  const double bearing_rad = wrap_angle(*kept_heading_rad_ - around.T_odom_robot.heading_rad);
+  const double radius_m = params_.robot_radius_m + params_.margin_tight_m;
+  const double way_m = free_way_m(around, bearing_rad, radius_m, params_);
+  if (way_m < params_.way_min_m) return std::nullopt;
+  return Direction{bearing_rad, way_m};
+}
+
 std::optional<Direction> DirectionChoice::straight_on(const Surroundings& around,
                                                       const Preference& preference) const {
   if (!preference.toward_rad) return std::nullopt;

@@ -29,6 +29,10 @@ class DirectionChoice {
 
   void forget() { kept_heading_rad_.reset(); }
 
+  /// The direction chosen last, as it is now; nothing if there is none or its way is no longer
+  /// free.
+  std::optional<Direction> kept(const Surroundings& around) const;
+
   /// Nothing if no direction has `way_min_m` of free way (or all of the preference's reach), not
   /// even with the tight margin.
   std::optional<Direction> choose(const Surroundings& around, const Preference& preference);

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace roomwise::pilot {
 namespace {
 
 constexpr std::size_t kBinsMax = 1000;
+constexpr std::size_t kEdgeBins = 3;
 constexpr int kSightingsMax = 4;
 constexpr int kSightingsBlocked = 2;
+constexpr double kFloorNeeded_m = 0.25;      // less of it in view may not be noticed
 constexpr double kNearestReading_m = 0.45;  // no Kinect measures nearer
 
 Duration to_duration(double time_s) { return Duration{static_cast<std::int64_t>(time_s * 1e6)}; }
@@ -30,6 +33,18 @@ bool is_view(const FreeView& view) {
          all_finite(view.free_range_m) && all_finite(view.unknown_ratio);
 }
 
+/// First and last of the bins in view that are not at the view's edges.
+std::pair<std::size_t, std::size_t> bins_well_in_view(const FreeView& view) {
+  const auto is_in_view = [](double unknown) { return unknown < 1.0; };
+  const auto& ratios = view.unknown_ratio;
+  const auto first = std::find_if(ratios.begin(), ratios.end(), is_in_view);
+  const auto last = std::find_if(ratios.rbegin(), ratios.rend(), is_in_view);
+  const auto first_bin = static_cast<std::size_t>(first - ratios.begin());
+  const auto bins_to_last = static_cast<std::size_t>(ratios.rend() - last);
+  if (bins_to_last <= first_bin + 2 * kEdgeBins) return {1, 0};
+  return {first_bin + kEdgeBins, bins_to_last - 1 - kEdgeBins};
+}
+
 /// Of the bin and its neighbours that are in view.
 double median_m(const FreeView& view, std::size_t k) {
   const auto at = [&](std::size_t i) { return std::max(view.free_range_m[i], 0.0); };
@@ -49,17 +64,24 @@ void ObstacleMemory::forget() { std::fill(cells_.begin(), cells_.end(), Cell{});
 
 bool ObstacleMemory::see(Time now, const Pose2& T_odom_robot, const FreeView& view) {
   if (!is_view(view)) return false;
+  const auto [first, last] = bins_well_in_view(view);
   for (const bool is_end : {false, true}) {
     for (std::size_t k = 0; k < view.free_range_m.size(); ++k) {
       if (view.unknown_ratio[k] >= 1.0) continue;  // not in view
       const double bearing_rad =
           view.first_bearing_rad + static_cast<double>(k) * view.bearing_step_rad;
       const double free_m = median_m(view, k);
-      if (is_end) see_end(now, T_odom_robot, bearing_rad, free_m);
+      if (is_end && k >= first && k <= last) see_end(now, T_odom_robot, bearing_rad, free_m);
       if (!is_end) see_floor(now, T_odom_robot, bearing_rad, free_m);
     }
   }
   return true;
+}
+
+void ObstacleMemory::refuse(Time now, const Eigen::Vector2d& p_odom_m) {
+  for (int sighting = 0; sighting < kSightingsBlocked; ++sighting) {
+    set(now + Duration{sighting}, p_odom_m, true, params_.refusal_memory_s);
+  }
 }
 
 void ObstacleMemory::see_floor(Time now, const Pose2& T_odom_robot, double bearing_rad,
@@ -78,7 +100,7 @@ void ObstacleMemory::see_end(Time now, const Pose2& T_odom_robot, double bearing
 }
 
 void ObstacleMemory::guess(Time now, const Pose2& T_odom_robot, double bearing_rad) {
-  const double to_m = params_.floor_seen_from_m + 2.0 * kCell_m;
+  const double to_m = params_.floor_seen_from_m + kFloorNeeded_m;
   for (double r = 0.3; r < to_m; r += kCell_m) {
     if (is_blocked(now, on_ray(T_odom_robot, bearing_rad, r))) return;
   }

@@ -27,7 +27,8 @@ struct FreeView {
 ///
 /// Each reading is the median of a bin and its neighbours, and a cell counts as blocked from the
 /// second frame on that sees something end there, less those that see floor only: a single bin that
-/// ends short in a single frame turns nobody aside.
+/// ends short in a single frame turns nobody aside. At the view's edges, where a bearing is in view
+/// only near by or only far off, ends say nothing.
 ///
 /// Cells are a torus of 6.4 m: what is farther apart shares one, and the newer place wins.
 class ObstacleMemory {
@@ -42,6 +43,9 @@ class ObstacleMemory {
   /// Takes up what was seen from `T_odom_robot`. False, and nothing changed, if its numbers are no
   /// view: counts that differ, none or more than 1000, or anything not finite.
   [[nodiscard]] bool see(Time now, const Pose2& T_odom_robot, const FreeView& view);
+
+  /// Something is said to stand there, though nobody saw it.
+  void refuse(Time now, const Eigen::Vector2d& p_odom_m);
 
   /// Replaces `points_robot_m` by what is remembered within reach, in a fixed order. Allocates
   /// nothing once the vector has room for capacity() points.

@@ -116,6 +116,13 @@ InputResult Pilot::add_pose(Time time, const Pose2& T_map_robot, bool is_trackin
   return InputResult::kUsed;
 }
 
+void Pilot::add_refusal(const Eigen::Vector2d& p_robot_m) {
+  const bool is_near = p_robot_m.norm() < params_.reach_m;  // false for NaN
+  if (track_count_ == 0 || !is_near) return;
+  const OdometrySample& last = track_[(track_count_ - 1) % kTrack];
+  memory_.refuse(last.time, transform(last.T_odom_robot, p_robot_m));
+}
+
 Failure Pilot::missing(Time now) const {
   if (odometry_at(now) == nullptr) return Failure::kNoOdometry;
   if (!is_fresh(now, viewed_, params_.segments_age_max_s)) return Failure::kNoSegments;
@@ -170,6 +177,8 @@ Motion Pilot::drive(Time now) {
   if (hold_ != Hold::kTouched && !stuck_.is_stuck(now, T_odom_robot, step.motion)) {
     return step.motion;
   }
+  // Whatever it believes to stand there did not help: safety_svc knows what must not be entered.
+  memory_.forget();
   if (!recovery_.begin(now, T_odom_robot)) end(State::kFailed, Failure::kStuck);
   report_.recoveries = recovery_.count();
   return {};

@@ -13,6 +13,10 @@ Wander::Wander(const Goal& goal, const PilotParams& params)
     : params_(params), speed_mps_(speed_of(goal, params)), choice_(params) {}
 
 Step Wander::step(const Surroundings& around) {
+  // A turn once begun is gone through with, whatever comes into view meanwhile.
+  if (sense_ != 0.0) {
+    if (const auto kept = choice_.kept(around)) return drive(around, *kept);
+  }
   const auto direction = choice_.choose(around, {.reach_m = params_.reach_m, .toward_rad = {}});
   return direction ? drive(around, *direction) : look_about(around);
 }

@@ -15,6 +15,9 @@ constexpr double kTouched_m = 0.10;  // thickness of what was felt
 constexpr double kTouched_rad = 1.05;
 constexpr double kTouchedStep_rad = 0.1;
 constexpr std::size_t kBinsMax = 1000;
+/// The shadow a Kinect's projector, 7.5 cm beside its camera, leaves behind the edge of something
+/// 0.5 m off. Darkness as narrow as this need not be something too near to be measured.
+constexpr double kShadow_rad = 0.15;
 constexpr std::size_t kEdgeBins = 3;     // at the view's edges, where pixels come and go
 constexpr double kBearingMax_rad = 1.5;  // farther to the side no camera that looks ahead sees
 
@@ -36,12 +39,26 @@ bool is_view(const FreeView& view) {
          std::all_of(view.unknown_ratio.begin(), view.unknown_ratio.end(), is_finite);
 }
 
+bool is_in_view(double unknown_ratio) { return unknown_ratio < 1.0; }
+
+std::size_t first_in_view(const FreeView& view) {
+  const auto& ratios = view.unknown_ratio;
+  return static_cast<std::size_t>(std::find_if(ratios.begin(), ratios.end(), is_in_view) -
+                                  ratios.begin());
+}
+
+/// 0 as well if none is.
+std::size_t last_in_view(const FreeView& view) {
+  const auto& ratios = view.unknown_ratio;
+  const auto last = std::find_if(ratios.rbegin(), ratios.rend(), is_in_view);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(ratios.rend() - last - 1, 0));
+}
+
 /// What a place is after `age`.
 Ground faded(Ground ground, Duration age) {
-  if (ground == Ground::kFree && age <= kFreeLife) return Ground::kFree;
+  if (ground == Ground::kFree) return age <= kFreeLife ? Ground::kFree : Ground::kOverlooked;
   if (ground == Ground::kClosed) return age <= kClosedLife ? Ground::kClosed : Ground::kUnknown;
-  if (ground == Ground::kUnknown || age > kOverlookedLife) return Ground::kUnknown;
-  return Ground::kOverlooked;
+  return ground;
 }
 
 }  // namespace
@@ -78,22 +95,24 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
                .direction = {std::cos(heading_rad), std::sin(heading_rad)},
                .free_m = std::clamp(view.free_range_m[bin], 0.0, kReach_m),
                .seen_from_m = view.floor_seen_from_m / std::cos(bearing_rad),
-               .is_dark = is_dark,
+               .is_dark = is_dark && dark_round_rad(view, bin) >= kShadow_rad,
                .end = view.has_drop_off ? Reason::kDropOff
                       : is_dark         ? Reason::kUnknown
                                         : Reason::kObstacle};
   };
   const std::size_t bins = view.free_range_m.size();
   for (std::size_t bin = 0; bin < bins; ++bin) {
-    if (view.unknown_ratio[bin] < 1.0) was_in_view_[bin] = true;
+    if (is_in_view(view.unknown_ratio[bin])) was_in_view_[bin] = true;
   }
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const Ray ray = ray_of(bin);
     if (ray.sees_floor()) open(now, ray);
     if (!ray.sees_floor() && is_well_in_view(bin)) doubt(now, ray);
   }
-  // Afterwards, so that no neighbour opens what this one saw to end.
-  for (std::size_t bin = 0; bin < bins; ++bin) {
+  // Afterwards, so that no neighbour opens what this one saw to end. At the view's edges bearings
+  // are in view in part: what seems to end there is in the middle of a view that matters.
+  for (std::size_t bin = first_in_view(view) + kEdgeBins; bin + kEdgeBins <= last_in_view(view);
+       ++bin) {
     const Ray ray = ray_of(bin);
     if (ray.sees_floor()) close_end(now, ray);
   }
@@ -104,6 +123,17 @@ bool ObstacleMemory::is_well_in_view(std::size_t bin) const {
   if (bin < kEdgeBins || bin + kEdgeBins >= kBinsMax) return false;
   const auto first = was_in_view_.begin() + static_cast<std::ptrdiff_t>(bin - kEdgeBins);
   return std::all_of(first, first + 2 * kEdgeBins + 1, [](bool was) { return was; });
+}
+
+double ObstacleMemory::dark_round_rad(const FreeView& view, std::size_t bin) const {
+  const auto is_dark = [&](std::size_t k) {
+    return was_in_view_[k] && view.unknown_ratio[k] > kUnknownRatio;
+  };
+  std::size_t first = bin;
+  while (first > 0 && is_dark(first - 1)) --first;
+  std::size_t end = bin;
+  while (end < view.unknown_ratio.size() && is_dark(end)) ++end;
+  return static_cast<double>(end - first) * std::abs(view.bearing_step_rad);
 }
 
 void ObstacleMemory::open(const Instant& now, const Ray& ray) {
@@ -118,11 +148,22 @@ void ObstacleMemory::open(const Instant& now, const Ray& ray) {
 }
 
 void ObstacleMemory::doubt(const Instant& now, const Ray& ray) {
+  const double explained_to_m = ray.is_dark ? 0.0 : closed_at_m(now, ray);
   for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
     const Eigen::Vector2d p_odom_m = ray.at(range_m);
-    if (at(now, p_odom_m).ground == Ground::kClosed) continue;
-    set(now, p_odom_m, Ground::kUnknown, Reason::kUnknown);
+    const Ground ground = at(now, p_odom_m).ground;
+    if (ground == Ground::kClosed) continue;
+    const bool was_seen = ground == Ground::kFree || ground == Ground::kOverlooked;
+    const bool is_explained = was_seen && range_m < explained_to_m;
+    set(now, p_odom_m, is_explained ? Ground::kOverlooked : Ground::kUnknown, Reason::kUnknown);
   }
+}
+
+double ObstacleMemory::closed_at_m(const Instant& now, const Ray& ray) const {
+  for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
+    if (at(now, ray.at(range_m)).ground == Ground::kClosed) return range_m;
+  }
+  return 0.0;
 }
 
 void ObstacleMemory::close_end(const Instant& now, const Ray& ray) {

@@ -12,7 +12,7 @@ namespace roomwise::safety {
 
 /// What a place is known to be.
 enum class Ground : std::uint8_t {
-  kUnknown,     ///< never seen, or too long ago
+  kUnknown,     ///< never seen, or in doubt since
   kOverlooked,  ///< floor was seen behind it; something low may stand there
   kFree,        ///< floor was seen there
   kClosed,      ///< not to be entered
@@ -41,11 +41,12 @@ struct FreeView {
 ///   - s .. f is free, f and the cell behind it closed, what lies farther as it was;
 ///   - nearer than s, where nothing is known, is overlooked: rays pass above it;
 ///   - f < s: the floor came not into view. If the pixels have readings, what stands there is no
-///     nearer than a Kinect measures and no farther than s: that is unknown again. If most have
-///     none, anything may stand anywhere: all of it is unknown again. (But for three bearings at
-///     either edge of what was ever in view: there pixels come and go.)
-/// Only seeing the floor opens what was closed. Free fades to overlooked, that and closed to
-/// unknown.
+///     nearer than a Kinect measures and no farther than s: that is unknown again, or, before
+///     something closed that explains the view, overlooked. If most have none, over a wider angle
+///     than shadows have, anything may stand anywhere: all of it is unknown again. (But for three
+///     bearings at either edge of what was ever in view: there pixels come and go.)
+/// At the edges of each view, where bearings are in view in part, nothing is closed. Only seeing
+/// the floor opens what was closed. Free fades to overlooked, closed to unknown.
 ///
 /// Cells are a torus of fixed size: what is 6.4 m apart shares one, and the newer place wins.
 class ObstacleMemory {
@@ -83,9 +84,13 @@ class ObstacleMemory {
 
   void open(const Instant& now, const Ray& ray);
   void doubt(const Instant& now, const Ray& ray);
+  /// Where along the doubtful part of a bearing something is closed; 0: nowhere.
+  double closed_at_m(const Instant& now, const Ray& ray) const;
   void close_end(const Instant& now, const Ray& ray);
   void set(const Instant& now, const Eigen::Vector2d& p_odom_m, Ground ground, Reason why);
   bool is_well_in_view(std::size_t bin) const;
+  /// Width of the bearings without readings that `bin` is one of.
+  double dark_round_rad(const FreeView& view, std::size_t bin) const;
   Cell& cell_of(std::int32_t column, std::int32_t row);
   const Cell& cell_of(std::int32_t column, std::int32_t row) const;
 

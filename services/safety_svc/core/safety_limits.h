@@ -41,10 +41,9 @@ inline constexpr double kStanding_mps = 0.06;
 inline constexpr double kStanding_radps = 0.3;
 
 /// Seen free this long ago somebody may have stepped in: a walker needs some 10 s to come from
-/// behind everything the camera watches while it keeps that place.
+/// behind everything the camera watches while it keeps that place. After that it is crept into: a
+/// robot that stood for long must be able to go on.
 inline constexpr Duration kFreeLife = std::chrono::seconds(10);
-/// After that, and where rays only pass above, it is crept into for a while, then unknown.
-inline constexpr Duration kOverlookedLife = std::chrono::seconds(60);
 /// A low thing in the blind zone is remembered until it is seen to be gone, or this long.
 inline constexpr Duration kClosedLife = std::chrono::seconds(60);
 /// No Kinect measures nearer: what it does measure is not inside this circle.

@@ -71,18 +71,15 @@ TEST_P(CircleDrive, KeepsHalfAMetreRoundASofa) {
   EXPECT_EQ(drive.report().state, State::kDone);
   EXPECT_GE(turned_rad, 2.0 * std::numbers::pi);
   EXPECT_GE(nearest_m, 0.4);
-  EXPECT_LE(farthest_m, 0.61);  // wanted: 0.60; missed by 6 mm
+  EXPECT_LE(farthest_m, 0.6);
   EXPECT_EQ(world.contacts(), 0);
 }
 
 constexpr ViewNoise kNoisyView{.range_sigma_ratio = 0.01, .dropout_probability = 0.005};
 
 INSTANTIATE_TEST_SUITE_P(BothSenses, CircleDrive,
-                         testing::Values(CircleCase{1, {}}, CircleCase{-1, {}}));
-
-/// Does not hold counter-clockwise: the way out there is up to 1.01 m.
-INSTANTIATE_TEST_SUITE_P(DISABLED_BothSensesWithNoise, CircleDrive,
-                         testing::Values(CircleCase{1, kNoisyView}, CircleCase{-1, kNoisyView}));
+                         testing::Values(CircleCase{1, {}}, CircleCase{-1, {}},
+                                         CircleCase{1, kNoisyView}, CircleCase{-1, kNoisyView}));
 
 }  // namespace
 }  // namespace roomwise::pilot

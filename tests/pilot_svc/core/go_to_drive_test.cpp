@@ -41,11 +41,8 @@ INSTANTIATE_TEST_SUITE_P(LivingRoom, GoToDrive,
                          testing::Values(GoToCase{4.2, 1.15, State::kDone},
                                          GoToCase{4.2, 3.6, State::kDone},
                                          GoToCase{1.6, 3.6, State::kDone},
+                                         GoToCase{2.75, 3.55, State::kDone},
                                          GoToCase{8.0, 2.4, State::kFailed}));
-
-/// Does not hold: after a recovery it comes no nearer and fails 1.57 m off, though the way is free.
-INSTANTIATE_TEST_SUITE_P(DISABLED_BehindTheCoffeeTable, GoToDrive,
-                         testing::Values(GoToCase{2.75, 3.55, State::kDone}));
 
 }  // namespace
 }  // namespace roomwise::pilot

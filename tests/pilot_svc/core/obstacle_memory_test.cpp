@@ -10,14 +10,18 @@ namespace roomwise::pilot {
 namespace {
 
 constexpr Duration kFrame = std::chrono::milliseconds(33);
+constexpr std::size_t kBins = 9;
+constexpr double kBin_rad = 1e-3;  // all end in the same cell
 constexpr Time kNow = time_from_utime(1'000'000'000);
 
 class ObstacleMemoryTest : public testing::Test {
  protected:
   bool see(double free_m, double unknown = 0.0) {
-    const std::vector<double> free{free_m};
-    const std::vector<double> ratio{unknown};
-    const FreeView view{0.0, 0.02, free, ratio};
+    // The middle bins are well within the view; those at the edges see nothing end.
+    std::vector<double> free(kBins, 5.0);
+    const std::vector<double> ratio(kBins, unknown);
+    for (std::size_t k = kBins / 2 - 1; k <= kBins / 2 + 1; ++k) free[k] = free_m;
+    const FreeView view{kBin_rad, kBin_rad, free, ratio};
     for (int frame = 0; frame < 4; ++frame) {
       now_ += kFrame;
       if (!memory_.see(now_, {}, view)) return false;
@@ -65,9 +69,10 @@ TEST_F(ObstacleMemoryTest, SomethingTooNearToBeMeasuredIsGuessedOnlyWhereNothing
 }
 
 TEST_F(ObstacleMemoryTest, OneSightingOrOneBinAloneTurnsNobodyAside) {
-  const std::vector<double> known{0.0, 0.0, 0.0};
-  const std::vector<double> lone{5.0, 1.5, 5.0};
-  const std::vector<double> wide{1.5, 1.5, 1.5};
+  const std::vector<double> known(kBins, 0.0);
+  std::vector<double> lone(kBins, 5.0);
+  lone[kBins / 2] = 1.5;
+  const std::vector<double> wide(kBins, 1.5);
   for (int i = 0; i < 5; ++i)
     ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, lone, known}));
   EXPECT_TRUE(points().empty());
@@ -75,6 +80,22 @@ TEST_F(ObstacleMemoryTest, OneSightingOrOneBinAloneTurnsNobodyAside) {
   EXPECT_TRUE(points().empty());
   ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, wide, known}));
   EXPECT_FALSE(points().empty());
+}
+
+TEST_F(ObstacleMemoryTest, AtTheViewsEdgesEndsSayNothing) {
+  const std::vector<double> known{1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  const std::vector<double> ends{0.0, 1.0, 1.0, 1.0, 5.0, 5.0, 5.0, 1.0, 1.0, 1.0, 0.0};
+  for (int i = 0; i < 5; ++i)
+    ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {-0.1, 0.02, ends, known}));
+  EXPECT_TRUE(points().empty());
+}
+
+TEST_F(ObstacleMemoryTest, WhereItWasRefusedSomethingStandsUntilTheFloorIsSeenThere) {
+  memory_.refuse(now_, {1.5, 0.0});
+  EXPECT_EQ(points().size(), 1U);
+  ASSERT_TRUE(see(2.5));
+  ASSERT_EQ(points().size(), 1U);
+  EXPECT_GT(points()[0].x(), 2.0);
 }
 
 TEST_F(ObstacleMemoryTest, ABearingOutOfViewSaysNothing) {

@@ -33,7 +33,7 @@ TEST_P(WanderDrive, TenMinutesWithoutContactCoverTheFloor) {
   EXPECT_NE(report.state, State::kFailed);
   EXPECT_EQ(world.contacts(), 0);
   EXPECT_GE(coverage.ratio(), GetParam().covered_least);
-  EXPECT_LE(drive.dithers(), 100);
+  EXPECT_LE(drive.dithers(), 60);
 }
 
 constexpr ViewNoise kNoisy{.range_sigma_ratio = 0.02, .dropout_probability = 0.02};

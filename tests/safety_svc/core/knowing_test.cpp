@@ -190,8 +190,7 @@ TEST(ObstacleMemory, Fades) {
   ASSERT_TRUE(memory.see(kStart, {}, UniformView(1.52, 0.1).view()));
   EXPECT_EQ(memory.at(later(kFreeLife), {1.0, 0.0}).ground, Ground::kFree);
   EXPECT_EQ(memory.at(later(kFreeLife + Duration(1)), {1.0, 0.0}).ground, Ground::kOverlooked);
-  EXPECT_EQ(memory.at(later(kOverlookedLife), {1.0, 0.0}).ground, Ground::kOverlooked);
-  EXPECT_EQ(memory.at(later(kOverlookedLife + Duration(1)), {1.0, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(later(std::chrono::hours(1)), {1.0, 0.0}).ground, Ground::kOverlooked);
   EXPECT_EQ(memory.at(later(kCameraAge), {1.52, 0.0}).why, Reason::kObstacle);
   EXPECT_EQ(memory.at(later(kCameraAge + Duration(1)), {1.52, 0.0}).why, Reason::kRemembered);
   EXPECT_EQ(memory.at(later(kClosedLife), {1.52, 0.0}).ground, Ground::kClosed);
@@ -219,6 +218,79 @@ TEST(ObstacleMemory, WhereNoFloorComesIntoViewItDoubtsWhatItKnew) {
   ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.0, 0.9).view()));
   EXPECT_EQ(memory.at(kStart, {0.3, 0.0}).ground, Ground::kUnknown);
   EXPECT_EQ(memory.at(kStart, {1.2, 0.0}).ground, Ground::kUnknown);
+}
+
+TEST(ObstacleMemory, BeforeSomethingClosedThatExplainsTheViewItOnlyOverlooks) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {-0.8, 0.0, 0.0}, UniformView(1.52, 0.1).view()));
+  ASSERT_EQ(memory.at(kStart, {0.72, 0.0}).ground, Ground::kClosed);
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.0, 0.1).view()));
+  EXPECT_EQ(memory.at(kStart, {0.3, 0.0}).ground, Ground::kFree) << "no reading is that near";
+  EXPECT_EQ(memory.at(kStart, {0.6, 0.0}).ground, Ground::kOverlooked);
+  EXPECT_EQ(memory.at(kStart, {0.72, 0.0}).ground, Ground::kClosed);
+  EXPECT_EQ(memory.at(kStart, {0.78, 0.0}).ground, Ground::kClosed) << "the cell behind the edge";
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.0, 0.9).view()));
+  EXPECT_EQ(memory.at(kStart, {0.6, 0.0}).ground, Ground::kUnknown) << "in the dark all is unknown";
+}
+
+TEST(ObstacleMemory, ANarrowShadowIsNothingTooNearToBeMeasured) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view()));
+  UniformView shadow(2.0, 0.1);
+  const std::size_t middle = shadow.free_m.size() / 2;
+  const auto darken = [&](std::size_t bin) {
+    shadow.free_m[bin] = 0.0;
+    shadow.unknown_ratio[bin] = 0.9;
+  };
+  for (std::size_t bin = middle - 2; bin <= middle + 1; ++bin) darken(bin);
+  ASSERT_TRUE(memory.see(kStart, {}, shadow.view()));
+  EXPECT_EQ(memory.at(kStart, {1.2, 0.0}).ground, Ground::kFree) << "0.14 rad";
+  darken(middle + 2);
+  ASSERT_TRUE(memory.see(kStart, {}, shadow.view()));
+  EXPECT_EQ(memory.at(kStart, {1.2, 0.0}).ground, Ground::kUnknown) << "0.175 rad";
+}
+
+TEST(ObstacleMemory, AtTheViewsEdgesNothingIsClosed) {
+  ObstacleMemory memory;
+  UniformView seen(2.0, 0.1);
+  for (const std::size_t bin : {std::size_t{2}, seen.free_m.size() - 3}) seen.free_m[bin] = 1.0;
+  const FreeView view = seen.view();
+  const auto place = [&](std::size_t bin) {
+    const double bearing_rad =
+        view.first_bearing_rad + view.bearing_step_rad * static_cast<double>(bin);
+    return Eigen::Vector2d(1.01 * std::cos(bearing_rad), 1.01 * std::sin(bearing_rad));
+  };
+  ASSERT_TRUE(memory.see(kStart, {}, view));
+  EXPECT_NE(memory.at(kStart, place(2)).ground, Ground::kClosed);
+  EXPECT_NE(memory.at(kStart, place(seen.free_m.size() - 3)).ground, Ground::kClosed);
+  for (const std::size_t bin : {std::size_t{3}, seen.free_m.size() - 4}) seen.free_m[bin] = 1.0;
+  ASSERT_TRUE(memory.see(kStart, {}, seen.view()));
+  EXPECT_EQ(memory.at(kStart, place(3)).ground, Ground::kClosed);
+  EXPECT_EQ(memory.at(kStart, place(seen.free_m.size() - 4)).ground, Ground::kClosed);
+}
+
+TEST(ObstacleMemory, AnEdgeToFallOffIsSaidToBeOne) {
+  ObstacleMemory memory;
+  const UniformView seen(1.52, 0.1);
+  FreeView view = seen.view();
+  view.has_drop_off = true;
+  ASSERT_TRUE(memory.see(kStart, {}, view));
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).why, Reason::kDropOff);
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(1.52, 0.9).view()));
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).why, Reason::kUnknown);
+}
+
+TEST(ObstacleMemory, WithNothingInViewNothingChanges) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(1.52, 0.1).view()));
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.9, 1.0).view()));
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).ground, Ground::kClosed);
+}
+
+TEST(Reason, HasWords) {
+  EXPECT_EQ(words_of(Reason::kAsAsked), "as asked");
+  EXPECT_EQ(words_of(Reason::kCharging), "charging");
+  EXPECT_EQ(ReasonSet().first(), Reason::kAsAsked);
 }
 
 TEST(ObstacleMemory, RefusesWhatIsNoView) {

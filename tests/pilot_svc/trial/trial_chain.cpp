@@ -1,0 +1,65 @@
+#include "tests/pilot_svc/trial/trial_chain.h"
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/support/build_paths.h"
+
+namespace roomwise {
+
+TrialChain::TrialChain(const TrialSetup& setup) : setup_(setup) {
+  const std::string port = folder_.path() / "create";
+  const std::string key = folder_.path() / "key";
+  const std::string door = folder_.path() / "kinect";
+  std::string scenario = setup.scenario;
+  if (scenario.find('\n') != std::string::npos) {
+    scenario = folder_.path() / "world.toml";
+    std::ofstream(scenario) << setup.scenario;
+  }
+  // OpenNI2's drivers take no arguments: the door comes by the environment.
+  ::setenv("ROOMWISE_SIM_KINECT", door.c_str(), 1);
+  if (!setup.log.empty()) start_logger();
+  std::vector<std::string> world = {
+      "--scenario",    scenario, "--seed",        std::to_string(setup.seed),
+      "--create_port", port,     "--kinect_door", door};
+  world.insert(world.end(), setup.simulator.begin(), setup.simulator.end());
+  start("simulator", world);
+  start("safety_svc", {"--key_path", key});
+  start("create_driver", {"--port", port, "--key_path", key});
+  start("landmark_svc", {});
+  start("segment_svc", {});
+  start("ekf_svc", {});
+  start("pilot_svc", setup.pilot);
+  start("kinect_pub", {"--resolution", setup.resolution, "--camera_height_m", "0.4",
+                       "--camera_pitch_rad", "0.1"});
+}
+
+void TrialChain::start(const std::string& name, const std::vector<std::string>& options) {
+  std::vector<std::string> command{program(name), "--url", setup_.url};
+  command.insert(command.end(), options.begin(), options.end());
+  parts_.push_back({name, std::make_unique<ChildProcess>(command, folder_.path() / name)});
+}
+
+void TrialChain::start_logger() {
+  const std::vector<std::string> command = {"lcm-logger",        "--lcm-url=" + setup_.url,
+                                            "--invert-channels", "--channel=KINECT_FRAME",
+                                            "--force",           "--quiet",
+                                            setup_.log.string()};
+  parts_.push_back({"lcm-logger", std::make_unique<ChildProcess>(command, folder_.path() / "log")});
+}
+
+std::string TrialChain::ended() {
+  std::string names;
+  for (const Part& part : parts_) {
+    if (!part.process->is_running()) names += " " + part.name;
+  }
+  return names;
+}
+
+std::string TrialChain::output() const {
+  std::string all;
+  for (const Part& part : parts_) all += part.process->output();
+  return all;
+}
+
+}  // namespace roomwise
