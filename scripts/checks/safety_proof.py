@@ -6,7 +6,7 @@ it does not compile or if a test fails; one that lives shows what no test looks 
 `equivalent:` behind a line, or on the line before it, says why no change of it can be seen; such
 lines are left out.
 
-Test programs are built once. Per mutant the changed source alone is compiled, without optimisation,
+Test programs are built once. Per mutant the changed source alone is compiled,
 and the core is linked anew as a shared library: the examples run first, the laws, which take
 longer, on what survives them.
 """
@@ -106,7 +106,7 @@ class Bench:
     """The test programs, and one place to try a mutant in for each worker."""
 
     def __init__(self, jobs):
-        self.objects = built_together(core_sources(), WORK / "core", ["-O0"], jobs)
+        self.objects = built_together(core_sources(), WORK / "core", ["-O1"], jobs)
         tests = built_together([SUPPORT, *EXAMPLES, LAWS], WORK / "tests", ["-O1"], jobs)
         self.link(self.objects, WORK / "core")
         self.programs = [WORK / "examples", WORK / "laws"]
@@ -139,7 +139,7 @@ class Bench:
         changed = folder / source.name
         changed.write_text(text)
         target = folder / "changed.o"
-        if run(["g++", *FLAGS, "-O0", "-c", changed, "-o", target]).returncode != 0:
+        if run(["g++", *FLAGS, "-O1", "-c", changed, "-o", target]).returncode != 0:
             return "the compiler"
         others = [o for o in self.objects if o.stem != source.stem]
         return self.passes(folder) if self.link([*others, target], folder) else "the linker"

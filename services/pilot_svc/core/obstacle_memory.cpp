@@ -11,7 +11,7 @@ constexpr std::size_t kBinsMax = 1000;
 constexpr std::size_t kEdgeBins = 3;
 constexpr int kSightingsMax = 4;
 constexpr int kSightingsBlocked = 2;
-constexpr double kFloorNeeded_m = 0.25;      // less of it in view may not be noticed
+constexpr double kFloorNeeded_m = 0.25;     // less of it in view may not be noticed
 constexpr double kNearestReading_m = 0.45;  // no Kinect measures nearer
 
 Duration to_duration(double time_s) { return Duration{static_cast<std::int64_t>(time_s * 1e6)}; }
