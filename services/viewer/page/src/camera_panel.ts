@@ -6,7 +6,7 @@ import { context2d, element, say } from "./dom";
 import type { Frame, Frames } from "./frames";
 import { landmark_list_t, segment_training_t, segmentation_t, type training_rectangle_t } from "./messages";
 
-const LABEL_OPACITY = 90;
+const LABEL_OPACITY = 64;
 const LARGEST_LABELS = 1 << 24;
 const isOn = (id: string) => element<HTMLInputElement>(id).checked;
 

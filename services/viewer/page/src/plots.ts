@@ -16,6 +16,7 @@ class Plot {
   constructor(
     private readonly host: HTMLElement,
     labels: string[],
+    colors = labels.map((_, i) => i % COLORS.length),
   ) {
     this.columns = [[], ...labels.map(() => [])];
     const axis = { stroke: "#8b929e", grid: { stroke: "#262b34" }, ticks: { show: false }, font: "10px system-ui" };
@@ -23,10 +24,16 @@ class Plot {
       {
         ...this.size(),
         cursor: { show: false },
-        legend: { show: true, live: false },
+        legend: { show: false },
         scales: { x: { time: false } },
         axes: [{ ...axis, size: 20 }, { ...axis, size: 44 }],
-        series: [{}, ...labels.map((label, i) => ({ label, stroke: COLORS[i % COLORS.length], width: 1.2, spanGaps: true }))],
+        series: [{}, ...labels.map((label, i) => ({
+          label,
+          stroke: COLORS[colors[i]],
+          width: 1.2,
+          spanGaps: true,
+          points: { show: false },
+        }))],
       },
       this.columns as uPlot.AlignedData,
       host,
@@ -46,7 +53,7 @@ class Plot {
   }
 
   private size(): { width: number; height: number } {
-    return { width: Math.max(50, this.host.clientWidth), height: Math.max(40, this.host.clientHeight - 22) };
+    return { width: Math.max(50, this.host.clientWidth), height: Math.max(40, this.host.clientHeight - 2) };
   }
 }
 
@@ -63,7 +70,7 @@ export class Plots {
   private last_s = -1;
 
   constructor(connection: Connection, poses: Poses) {
-    const nis = new Plot(element("plot_nis"), ["NIS / dof", "95 % low", "95 % high"]);
+    const nis = new Plot(element("plot_nis"), ["NIS / dof", "95 % low", "95 % high"], [0, 1, 1]);
     const sigma = new Plot(element("plot_sigma"), ["sigma x m", "sigma y m", "error to truth m"]);
     const cost = new Plot(element("plot_cost"), SERVICES);
     const latency = new Plot(element("plot_latency"), SERVICES);
