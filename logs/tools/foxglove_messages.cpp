@@ -1,6 +1,7 @@
 #include "logs/tools/foxglove_messages.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "logs/tools/json_fields.h"
 
@@ -67,7 +68,7 @@ std::string depth_image_json(std::int64_t utime, const DepthImage& depth) {
   bytes.reserve(2 * depth.size());
   for (const std::uint16_t step : depth.steps) {
     const double depth_mm = 1000.0 * step * depth.unit_m;
-    const auto word = depth_mm < 65535.5 ? static_cast<unsigned>(depth_mm + 0.5) : 0U;
+    const auto word = depth_mm < 65535.5 ? static_cast<unsigned>(std::lround(depth_mm)) : 0U;
     bytes.push_back(static_cast<std::uint8_t>(word & 0xffU));
     bytes.push_back(static_cast<std::uint8_t>(word >> 8U & 0xffU));
   }

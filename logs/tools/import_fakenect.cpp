@@ -25,8 +25,8 @@
 namespace roomwise {
 namespace {
 
-constexpr int kWidth_px = 640;
-constexpr int kHeight_px = 480;
+constexpr int kDumpWidth_px = 640;
+constexpr int kDumpHeight_px = 480;
 constexpr std::int64_t kColorTolerance_us = 20000;
 constexpr double kTicks_per_us = 60.0;
 /// 120 cm to the reference plane, whose pixels of 640 columns are 0.2084 cm wide.
@@ -65,8 +65,9 @@ Dump read_index(const std::filesystem::path& folder) {
 DepthImage read_depth(const std::filesystem::path& path, const kinect::ShiftTable& table) {
   const std::vector<std::uint8_t> bytes = read_whole_file(path);
   constexpr std::string_view kHeader = "P5 640 480 65535\n";
-  DepthImage depth{.width_px = kWidth_px, .height_px = kHeight_px, .unit_m = 0.001, .steps = {}};
-  depth.steps.resize(static_cast<std::size_t>(kWidth_px) * kHeight_px);
+  DepthImage depth{
+      .width_px = kDumpWidth_px, .height_px = kDumpHeight_px, .unit_m = 0.001, .steps = {}};
+  depth.steps.resize(static_cast<std::size_t>(kDumpWidth_px) * kDumpHeight_px);
   const std::size_t wanted = kHeader.size() + 2 * depth.size();
   if (bytes.size() != wanted || std::memcmp(bytes.data(), kHeader.data(), kHeader.size()) != 0) {
     throw std::runtime_error(path.string() + ": not a depth image of 640x480");

@@ -65,13 +65,14 @@ void draw_edges(FramePicture& picture, const ToColor& to_color, const landmark_l
 class RangeTexts {
  public:
   void draw(Canvas& canvas, cv::Point2d stroke_top, const landmark_observation_t& landmark) {
-    constexpr double kHeight_px = 12.0;
+    constexpr double kTextHeight_px = 12.0;
     const std::string words = fmt::format("{:.2f} m", landmark.range_m);
-    cv::Rect2d box(stroke_top.x + 6, stroke_top.y, Canvas::text_width_px(words, kHeight_px), 17);
+    cv::Rect2d box(stroke_top.x + 6, stroke_top.y, Canvas::text_width_px(words, kTextHeight_px),
+                   17);
     const auto overlaps = [&box](const cv::Rect2d& other) { return (box & other).area() > 0.0; };
     while (std::ranges::any_of(boxes_, overlaps)) box.y += 18;
     boxes_.push_back(box);
-    canvas.outlined_text({box.x, box.br().y - 2}, words, kHeight_px, kWhite, kBlack);
+    canvas.outlined_text({box.x, box.br().y - 2}, words, kTextHeight_px, kWhite, kBlack);
   }
 
  private:

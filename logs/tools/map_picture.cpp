@@ -19,8 +19,8 @@ constexpr Color kOdometry{250, 150, 60};
 constexpr Color kEstimate{20, 90, 200};
 constexpr Color kLandmark{205, 40, 60};
 
-constexpr int kWidth_px = 1400;
-constexpr int kHeight_px = 1000;
+constexpr int kPictureWidth_px = 1400;
+constexpr int kPictureHeight_px = 1000;
 const cv::Rect2d kPlot{40.0, 90.0, 1060.0, 870.0};
 
 /// From the world (y up) to the picture (y down).
@@ -203,7 +203,7 @@ cv::Mat3b draw_map(const Recording& recording, const std::string& title) {
   if (bounds.empty()) {
     throw std::runtime_error("nothing to draw: needs POSE, ODOMETRY, TRUTH or LANDMARK_MAP");
   }
-  Canvas canvas(kWidth_px, kHeight_px, kPaper);
+  Canvas canvas(kPictureWidth_px, kPictureHeight_px, kPaper);
   draw_scene(canvas, View(bounds), scene);
   draw_frame(canvas, scene, title);
   return canvas.finish();

@@ -63,10 +63,10 @@ void add_landmarks(const Recording& recording, Scores& scores) {
   scores.emplace_back("landmarks_repeat_std_to_2m", score.repeat_std_m(0.0, 2.0));
   scores.emplace_back("landmarks_repeat_std_2m_to_3.5m", score.repeat_std_m(2.0, 3.5));
   scores.emplace_back("landmarks_viewpoint_median_m", score.viewpoint_median_m());
-  const char* const kKinds[] = {"", "edge_left", "edge_right", "convex", "concave", "pole"};
+  const char* const kKindNames[] = {"", "edge_left", "edge_right", "convex", "concave", "pole"};
   for (std::int8_t kind = 1; kind <= 5; ++kind) {
     const LandmarkCounts counts = score.of_kind(kind);
-    const std::string name = std::string("landmarks_") + kKinds[kind];
+    const std::string name = std::string("landmarks_") + kKindNames[kind];
     scores.emplace_back(name + "_per_frame", per_frame(counts.seen));
     scores.emplace_back(name + "_precision", counts.precision_ratio());
   }

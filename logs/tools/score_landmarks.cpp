@@ -11,18 +11,18 @@
 namespace roomwise {
 namespace {
 
-using Kind = landmark_observation_t;
+using Observation = landmark_observation_t;
 
 constexpr double kGate_m = 0.10;
 constexpr double kGatePerRange = 0.02;
 
 bool may_be(std::int8_t kind, std::int8_t true_kind) {
   switch (kind) {
-    case Kind::KIND_EDGE_LEFT:
-    case Kind::KIND_EDGE_RIGHT:
-      return true_kind == Kind::KIND_CREASE_CONVEX || true_kind == Kind::KIND_POLE;
-    case Kind::KIND_POLE:
-      return true_kind == Kind::KIND_POLE || true_kind == Kind::KIND_CREASE_CONVEX;
+    case Observation::KIND_EDGE_LEFT:
+    case Observation::KIND_EDGE_RIGHT:
+      return true_kind == Observation::KIND_CREASE_CONVEX || true_kind == Observation::KIND_POLE;
+    case Observation::KIND_POLE:
+      return true_kind == Observation::KIND_POLE || true_kind == Observation::KIND_CREASE_CONVEX;
     default:
       return kind == true_kind;
   }
@@ -101,11 +101,10 @@ double LandmarkScore::viewpoint_median_m() const {
   constexpr double kApart_m = 0.5;
   std::vector<double> distances_m;
   for (const auto& [what, history] : histories(matches)) {
-    const auto far = [&](const LandmarkMatch* m) {
-      return (m->p_robot_m - history.front()->p_robot_m).norm() >= kApart_m;
-    };
+    const LandmarkMatch& first = *history.front();
     for (const LandmarkMatch* m : history) {
-      if (far(m)) distances_m.push_back((m->error_m - history.front()->error_m).norm());
+      const bool is_far = (m->p_robot_m - first.p_robot_m).norm() >= kApart_m;
+      if (is_far) distances_m.push_back((m->error_m - first.error_m).norm());
     }
   }
   if (distances_m.empty()) return 0.0;

@@ -47,8 +47,9 @@ pilot::Goal to_goal(const pilot_goal_t& message) {
                    .circle_distance_m = message.circle_distance_m,
                    .circle_sense = message.circle_sense,
                    .circle_rounds = message.circle_rounds_ratio};
-  const int behaviour = message.behaviour;
-  const bool is_known = behaviour >= 0 && behaviour <= pilot_goal_t::BEHAVIOUR_GO_TO;
+  const std::int8_t behaviour = message.behaviour;
+  const bool is_known =
+      behaviour >= pilot_goal_t::BEHAVIOUR_STOP && behaviour <= pilot_goal_t::BEHAVIOUR_GO_TO;
   goal.behaviour = is_known ? static_cast<pilot::Behaviour>(behaviour) : pilot::Behaviour::kWander;
   if (!is_known) goal.speed_mps = std::numeric_limits<double>::quiet_NaN();
   return goal;

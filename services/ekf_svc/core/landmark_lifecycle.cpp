@@ -19,8 +19,7 @@ bool counts_as_seen(Verdict verdict) {
 }  // namespace
 
 LandmarkLifecycle::LandmarkLifecycle(const SlamFilter& filter, const EkfParams& params)
-    : filter_(&filter),
-      half_view_rad_(params.view_half_angle_rad),
+    : half_view_rad_(params.view_half_angle_rad),
       range_min_m_(params.view_range_min_m),
       range_max_m_(params.view_range_max_m),
       is_seen_(filter.landmark_budget()) {

@@ -33,7 +33,6 @@ class LandmarkLifecycle {
   bool is_looked_through(const Eigen::Vector2d& p_robot_m, double sigma_m,
                          std::span<const Sighting> sightings, const VirtualScan& scan) const;
 
-  const SlamFilter* filter_;
   double half_view_rad_;
   double range_min_m_;
   double range_max_m_;

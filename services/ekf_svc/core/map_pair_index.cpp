@@ -37,7 +37,10 @@ std::span<const MapPairIndex::Pair> MapPairIndex::find(double distance_m, std::i
                                                        std::int8_t second, int shift) const {
   const int bin = std::max(0, static_cast<int>(distance_m / kBin_m) + shift);
   const std::uint32_t key = key_of(bin, first, second);
-  const auto [begin, end] = std::ranges::equal_range(pairs_, key, std::ranges::less{}, &Pair::key);
+  const auto begin = std::lower_bound(pairs_.begin(), pairs_.end(), key,
+                                      [](const Pair& pair, auto k) { return pair.key < k; });
+  const auto end = std::upper_bound(begin, pairs_.end(), key,
+                                    [](auto k, const Pair& pair) { return k < pair.key; });
   return {begin, end};
 }
 

@@ -46,6 +46,15 @@ struct LandmarkParams {
     field("landmarks_max", landmarks_max, 0, 200);
     field("join_gate_mahalanobis_sq", join_gate_mahalanobis_sq, 0.0, 100.0);
     field("edge_pixels_listed_max", edge_pixels_listed_max, 0, 8000);
+    field("thin_width_max_m", thin_width_max_m, 0.0, 1.0);
+    visit_edge_fields(field);
+    visit_chain_fields(field);
+    visit_scan_fields(field);
+  }
+
+ private:
+  template <class Field>
+  void visit_edge_fields(Field&& field) {
     field("region", region.region,
           {"whole", "slice", "top_left", "top_right", "bottom_left", "bottom_right"});
     field("slice_first_row_px", region.slice_first_row_px, 0, 4095);
@@ -66,6 +75,10 @@ struct LandmarkParams {
     field("dark_luma_levels", color.dark_luma_levels, 0.0, 255.0);
     field("light_luma_levels", color.light_luma_levels, 0.0, 255.0);
     field("color_noise_levels", color.noise_levels, 0.1, 100.0);
+  }
+
+  template <class Field>
+  void visit_chain_fields(Field&& field) {
     field("column_step_max_px", chain.column_step_max_px, 0.0, 64.0);
     field("depth_step_m", chain.depth_step_m, 0.0, 1.0);
     field("depth_step_per_m_m2", chain.depth_step_per_m_m2, 0.0, 1.0);
@@ -85,7 +98,10 @@ struct LandmarkParams {
     field("limb_radius_max_m", estimate.round.limb_radius_max_m, 0.01, 3.0);
     field("round_bend_quanta", estimate.round.bend_quanta, 0.01, 10.0);
     field("round_better_ratio", estimate.round.better_ratio, 0.01, 1.0);
-    field("thin_width_max_m", thin_width_max_m, 0.0, 1.0);
+  }
+
+  template <class Field>
+  void visit_scan_fields(Field&& field) {
     field("scan_height_low_m", scan.height_low_m, 0.0, 3.0);
     field("scan_height_high_m", scan.height_high_m, 0.0, 3.0);
     field("scan_row_step_px", scan.row_step_px, 1, 100);

@@ -14,10 +14,10 @@ constexpr int kCell_px = 16;
 constexpr int kStride_px = 2;   // every second pixel each way says enough
 constexpr int kPixelsMin = 24;  // of 64
 constexpr float kResidual_quanta = 1.5F;
-constexpr float kOnWall_quanta = 4.0F;  // a pixel, against its own or a neighbour's plane
-constexpr float kFoot_quanta = 0.75F;   // between wall and floor that differ by less, the wall
-constexpr float kUpright = 0.2F;        // |cosine| between a wall's normal and up
-constexpr float kSameNormal = 0.95F;    // cosine: 18 degrees
+constexpr float kOnWall_quanta = 4.0F;     // a pixel, against its own or a neighbour's plane
+constexpr float kWallFoot_quanta = 0.75F;  // between wall and floor that differ by less, the wall
+constexpr float kUpright = 0.2F;           // |cosine| between a wall's normal and up
+constexpr float kSameNormal = 0.95F;       // cosine: 18 degrees
 constexpr float kWidth_m = 0.5F;
 constexpr float kHeight_m = 0.6F;
 
@@ -187,7 +187,7 @@ void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int
   const int v_end = std::min((row + 1) * kCell_px, view.height_px());
   const auto unit_m = static_cast<float>(view.unit_m());
   const float off_max = kOnWall_quanta * quantum_per_m_;
-  const float behind_max = kFoot_quanta * quantum_per_m_;
+  const float behind_max = kWallFoot_quanta * quantum_per_m_;
   for (int v = row * kCell_px; v < v_end; ++v) {
     const float y = view.ray_y()[static_cast<std::size_t>(v)];
     const auto first = static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px());
