@@ -91,14 +91,17 @@ void gather(Bus& bus, Recording& recording) {
   });
   bus.subscribe(channels::kLandmarkMap,
                 [&](const landmark_map_t& m) { set_map(bus, m, recording); });
-  bus.subscribe(channels::kLandmarks,
-                [&](const landmark_list_t& m) { add_seen(bus, m, recording.seen_frames); });
+  bus.subscribe(channels::kLandmarks, [&](const landmark_list_t& m) {
+    add_seen(bus, m, recording.seen_frames);
+    if (m.count > 0 && is_time(m.utime)) recording.sightings.push_back(m.utime);
+  });
 }
 
 void sort_by_time(Recording& recording) {
   for (Trajectory* trajectory : {&recording.poses, &recording.odometry, &recording.truth}) {
     std::ranges::stable_sort(*trajectory, {}, &TimedPose2::utime);
   }
+  std::ranges::sort(recording.sightings);
 }
 
 }  // namespace roomwise

@@ -33,6 +33,7 @@ struct Recording {
   std::vector<MapPoint> true_landmarks;  ///< the newest list that was not empty
   std::optional<landmark_map_t> map;     ///< the last
   std::vector<SeenFrame> seen_frames;    ///< LANDMARKS
+  std::vector<std::int64_t> sightings;   ///< when LANDMARKS had any, whatever they came of
 
   std::vector<MapPoint> map_points() const;
 };
@@ -41,7 +42,7 @@ struct Recording {
 /// number that is not finite or an absurd time are left out and counted on the bus.
 void gather(Bus& bus, Recording& recording);
 
-/// Trajectories into order of time. To be called when all is gathered.
+/// Trajectories and sightings into order of time. To be called when all is gathered.
 void sort_by_time(Recording& recording);
 
 }  // namespace roomwise

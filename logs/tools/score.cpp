@@ -25,6 +25,15 @@ void add_trajectory(const std::string& prefix, const std::optional<TrajectorySco
   scores.emplace_back(prefix + "poses", static_cast<double>(score->poses));
 }
 
+/// Where the filter has just seen something, as filters without poses in between are judged.
+void add_trajectory_at_sightings(const Recording& recording, Scores& scores) {
+  const auto score =
+      score_trajectory(first_after(recording.poses, recording.sightings), recording.truth);
+  if (!score) return;
+  scores.emplace_back("ate_aligned_at_sightings_m", score->ate_aligned_m);
+  scores.emplace_back("heading_rmse_at_sightings_rad", score->heading_rmse_rad);
+}
+
 void add_map(const Recording& recording, const std::optional<TrajectoryScore>& trajectory,
              Scores& scores) {
   if (!recording.map) return;
@@ -86,6 +95,7 @@ Scores score_recording(const Recording& recording) {
   Scores scores;
   const auto trajectory = score_trajectory(recording.poses, recording.truth);
   add_trajectory("", trajectory, scores);
+  add_trajectory_at_sightings(recording, scores);
   add_trajectory("odometry_", score_trajectory(recording.odometry, recording.truth), scores);
   add_map(recording, trajectory, scores);
   add_landmarks(recording, scores);

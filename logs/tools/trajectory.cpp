@@ -29,4 +29,15 @@ std::optional<Pose2> pose_at(const Trajectory& trajectory, std::int64_t utime) {
   return between(*before, *after, utime);
 }
 
+Trajectory first_after(const Trajectory& trajectory, std::span<const std::int64_t> utimes) {
+  Trajectory chosen;
+  auto next = trajectory.begin();
+  for (const std::int64_t utime : utimes) {
+    next = std::ranges::lower_bound(next, trajectory.end(), utime, {}, &TimedPose2::utime);
+    if (next == trajectory.end()) break;
+    if (chosen.empty() || chosen.back().utime != next->utime) chosen.push_back(*next);
+  }
+  return chosen;
+}
+
 }  // namespace roomwise

@@ -1,9 +1,16 @@
 #include "services/ekf_svc/ekf_messages.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace roomwise {
 namespace {
+
+// A camera of 640 columns has six or more in each beam.
+constexpr double kFirstBeam_rad = -0.8;
+constexpr double kBeamStep_rad = 0.0125;
+constexpr std::size_t kBeams = 128;
 
 map_landmark_t to_map_landmark(const ekf::SlamFilter& filter, std::size_t l) {
   const ekf::Landmark& landmark = filter.landmark(l);
@@ -96,6 +103,22 @@ ekf::Sighting to_sighting(const landmark_observation_t& message) {
                         message.chroma_variance_log2};
   return sighting;
 }
+
+ScanBeams::ScanBeams(const landmark_list_t& message) {
+  const auto count = std::min({message.scan_x_m.size(), message.scan_y_m.size(),
+                               static_cast<std::size_t>(std::max(0, message.scan_count))});
+  if (count == 0) return;
+  range_m_.assign(kBeams, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x_m = message.scan_x_m[i], y_m = message.scan_y_m[i];
+    const double beam = (std::atan2(y_m, x_m) - kFirstBeam_rad) / kBeamStep_rad;
+    if (!(beam >= 0.0 && beam < static_cast<double>(kBeams))) continue;  // NaN, too
+    float& nearest_m = range_m_[static_cast<std::size_t>(beam)];
+    nearest_m = std::fmin(nearest_m, std::hypot(x_m, y_m));
+  }
+}
+
+ekf::VirtualScan ScanBeams::scan() const { return {kFirstBeam_rad, kBeamStep_rad, range_m_}; }
 
 pose_t to_pose_message(const ekf::Estimator& estimator, const ekf::FrameResult& last_frame) {
   const ekf::PoseEstimate estimate = estimator.estimate();

@@ -12,6 +12,19 @@ ekf::OdometrySample to_sample(const odometry_t& message);
 /// One element of LANDMARKS as the core takes it.
 ekf::Sighting to_sighting(const landmark_observation_t& message);
 
+/// The nearest thing by bearing, of the points LANDMARKS tells of the view; NaN where it tells
+/// none. As from the robot's centre: a camera that sits a few cm off it sees a little more or less.
+class ScanBeams {
+ public:
+  /// Empty if the frame has no point in view.
+  explicit ScanBeams(const landmark_list_t& message);
+
+  ekf::VirtualScan scan() const;
+
+ private:
+  std::vector<float> range_m_;
+};
+
 /// POSE for the newest odometry, after `last_frame`.
 pose_t to_pose_message(const ekf::Estimator& estimator, const ekf::FrameResult& last_frame);
 

@@ -75,12 +75,13 @@ void EkfService::on_odometry(const odometry_t& message) {
 }
 
 void EkfService::on_landmarks(const landmark_list_t& message) {
-  WaitingFrame frame{time_from_utime(message.utime), {}};
-  const ekf::FrameTiming timing = estimator_.timing(frame.time);
+  const Time taken = time_from_utime(message.utime);
+  const ekf::FrameTiming timing = estimator_.timing(taken);
   if (timing != ekf::FrameTiming::kReady && timing != ekf::FrameTiming::kWaits) {
     return bus_.count(reason(timing));
   }
   if (waiting_.size() == kFramesWaitingMax) return bus_.count("frame_queue_full");
+  WaitingFrame frame{taken, {}, ScanBeams(message)};
   frame.sightings.reserve(message.landmarks.size());
   std::transform(message.landmarks.begin(), message.landmarks.end(),
                  std::back_inserter(frame.sightings), to_sighting);
@@ -107,7 +108,7 @@ void EkfService::use_waiting_frames() {
 
 void EkfService::use(const WaitingFrame& frame) {
   verdicts_.resize(frame.sightings.size());
-  last_frame_ = estimator_.process(frame.time, frame.sightings, verdicts_);
+  last_frame_ = estimator_.process(frame.time, frame.sightings, verdicts_, frame.beams.scan());
   if (last_frame_.pose_widened) bus_.count("pose_widened");
   for (const ekf::Verdict verdict : verdicts_) {
     if (verdict != ekf::Verdict::kMatched) bus_.count(ekf::name_of(verdict));

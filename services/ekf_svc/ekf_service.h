@@ -7,6 +7,7 @@
 #include "common/bus/bus.h"
 #include "services/ekf_svc/core/ekf_params.h"
 #include "services/ekf_svc/core/estimator.h"
+#include "services/ekf_svc/ekf_messages.h"
 #include "services/ekf_svc/map_file.h"
 
 namespace roomwise {
@@ -31,6 +32,7 @@ class EkfService {
   struct WaitingFrame {
     Time time{};
     std::vector<ekf::Sighting> sightings;
+    ScanBeams beams;
   };
 
   void on_odometry(const odometry_t& message);

@@ -16,6 +16,7 @@
 #include "common/create/sensor_packets.h"
 #include "common/frames/frame_encoder.h"
 #include "roomwise/all_messages.hpp"
+#include "services/ekf_svc/core/map_codec.h"
 
 namespace roomwise {
 namespace {
@@ -256,6 +257,25 @@ void serial_seeds(Corpus corpus) {
   corpus.add("\x02\x14Roomba by iRobot!\r\n\x1c.release-stm32-3.7.7:6913\r\n");
 }
 
+/// What a map file has between its header and its checksum.
+void map_seeds(Corpus corpus) {
+  for (const std::size_t count : {1U, 9U}) {
+    ekf::MapSnapshot map;
+    map.calibration_covariance = 1e-4 * Eigen::Matrix3d::Identity();
+    for (std::size_t l = 0; l < count; ++l) {
+      map.landmarks.push_back({.map_id = map.next_map_id++, .times_seen = 3});
+      const auto place = static_cast<double>(l);
+      map.positions_m.emplace_back(place, 0.3 * place * place);
+    }
+    for (std::size_t i = 0; i < 2 * count; ++i) {
+      map.covariance_m2.push_back(0.01);
+      map.covariance_m2.insert(map.covariance_m2.end(), 2 * count - i - 1, 0.001);
+    }
+    const Bytes file = ekf::encode_map(map);
+    corpus.add(Bytes(file.begin() + 16, file.end() - 4));
+  }
+}
+
 void make_seeds(const std::filesystem::path& folder) {
   depth_codec_seeds(Corpus(folder / "fuzz_depth_codec"));
   frame_seeds(Corpus(folder / "fuzz_frame_decoder"));
@@ -264,6 +284,7 @@ void make_seeds(const std::filesystem::path& folder) {
   serial_seeds(Corpus(folder / "fuzz_oi_decoder"));
   create_seeds(Corpus(folder / "fuzz_create_emulator"));
   scenario_seeds(Corpus(folder / "fuzz_scenario"));
+  map_seeds(Corpus(folder / "fuzz_map_file"));
   log_seeds(Corpus(folder / "fuzz_log_reader"), folder / "seed.lcmlog");
 }
 

@@ -75,6 +75,17 @@ TEST(ScoreTrajectory, OnlyWhereTruthExists) {
   EXPECT_FALSE(score_trajectory({}, truth));
 }
 
+TEST(Trajectory, FirstAfterTakesEachPoseOnce) {
+  const Trajectory poses{{10, {1, 0, 0}}, {20, {2, 0, 0}}, {30, {3, 0, 0}}};
+  const std::vector<std::int64_t> utimes{5, 6, 20, 29, 31};
+  const Trajectory chosen = first_after(poses, utimes);
+  ASSERT_EQ(chosen.size(), 3U);
+  EXPECT_EQ(chosen[0].utime, 10);  // of 5 and 6
+  EXPECT_EQ(chosen[1].utime, 20);
+  EXPECT_EQ(chosen[2].utime, 30);  // of 29; there is none for 31
+  EXPECT_TRUE(first_after({}, utimes).empty());
+}
+
 TEST(Trajectory, HeadingIsInterpolatedTheShortWayRound) {
   const Trajectory truth{{0, {0, 0, 3.0}}, {100'000, {2, 4, -3.0}}};
   const Pose2 half = pose_at(truth, 50'000).value();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <future>
@@ -23,15 +24,22 @@ using Command = velocity_command_t;
 
 constexpr std::int64_t kSettled_us = 150'000;  // TRUTH says the same for so long: it stands
 
+// A machine that gives the listener nothing for so long gives the services nothing either, while
+// the simulated robot drives on by the clock: such a drive tells nothing and is driven again.
+constexpr double kStall_s = 0.06;
+constexpr int kAttempts = 4;
+constexpr double kSimulatedFaultAt_s = 9.0;
+
 /// What a fault did: from the instant of the fault on.
 struct Outcome {
   bool has_driven = false;
   std::optional<double> stop_s;  ///< the wheels stood after this long; nothing: they went on
   double way_m = 0.0;
   double fastest_mps = 0.0;  ///< after the fault
-  std::string reason;        ///< on SAFETY_STATE; what create_driver says if there is none
+  std::string reasons;       ///< all on SAFETY_STATE; what create_driver says if there is none
   create_state_t last_state{};
   std::string output;
+  bool is_disturbed = false;  ///< by the machine: it tells nothing
 };
 
 struct Fault {
@@ -139,48 +147,85 @@ Outcome judge(const SafetyChain& chain, std::int64_t strike_utime) {
   return outcome;
 }
 
-std::string reason_after(const SafetyChain& chain, std::int64_t strike_utime) {
+std::string reasons_after(const SafetyChain& chain, std::int64_t strike_utime) {
+  std::vector<std::string> reasons;
   for (const safety_state_t& state : chain.safety_states) {
-    if (state.utime > strike_utime && state.state >= safety_state_t::STATE_STOP) {
-      return state.reason_text;
+    if (state.utime <= strike_utime || state.state < safety_state_t::STATE_STOP) continue;
+    if (reasons.empty() || reasons.back() != state.reason_text) {
+      reasons.push_back(state.reason_text);
     }
   }
-  const bool is_silent =
-      !chain.states.empty() && chain.states.back().driver_state == create_state_t::DRIVER_SILENT;
-  return is_silent ? "create_driver: commands silent" : "";
+  const auto is_silent = [strike_utime](const create_state_t& state) {
+    return state.utime > strike_utime && state.driver_state == create_state_t::DRIVER_SILENT;
+  };
+  if (std::ranges::any_of(chain.states, is_silent)) {
+    reasons.push_back("create_driver: commands silent");
+  }
+  std::string all;
+  for (const std::string& reason : reasons) all += (all.empty() ? "" : "; then ") + reason;
+  return all;
 }
 
 /// How many drives go on at once: more, and two cores do not give each its time.
 std::counting_semaphore<>& free_places() {
-  static std::counting_semaphore<> places(4);
+  static std::counting_semaphore<> places(2);
   return places;
 }
 
-Outcome drive_into(const Fault& fault, int port) {
-  free_places().acquire();
+ChainSetup setup_of(const Fault& fault, int port) {
   ChainSetup setup;
   setup.url = "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0";
   // The faults are the matter here, not the blind zone: the floor counts as seen from near by.
   setup.safety = {"--floor_seen_from_m", "0.2"};
-  if (!fault.simulated.empty()) setup.simulator = {"--fault", "at_s=9,kind=" + fault.simulated};
-  SafetyChain chain(setup);
-  const bool has_driven = chain.listen_until([&] { return chain.true_speed_mps() > 0.29; }, 20.0);
-  chain.listen_for(0.3);
+  if (!fault.simulated.empty()) {
+    setup.simulator = {"--fault",
+                       "at_s=" + std::to_string(kSimulatedFaultAt_s) + ",kind=" + fault.simulated};
+  }
+  return setup;
+}
+
+/// Drives until the robot is at its speed and, with a simulated fault, until just before it.
+/// Whether it drives then.
+bool get_going(SafetyChain& chain, const Fault& fault) {
+  if (!chain.listen_until([&] { return chain.true_speed_mps() > 0.29; }, 20.0)) return false;
+  const auto simulated_s = [&] {
+    return 1e-6 * static_cast<double>(chain.truth.back().utime - chain.truth.front().utime);
+  };
+  chain.forget_stalls();
+  if (fault.simulated.empty()) {
+    chain.listen_for(0.3);
+  } else {
+    chain.listen_until([&] { return simulated_s() > kSimulatedFaultAt_s - 0.3; }, 10.0);
+  }
+  return chain.true_speed_mps() > 0.28;
+}
+
+Outcome drive_into(const Fault& fault, int port) {
+  SafetyChain chain(setup_of(fault, port));
+  const bool has_driven = get_going(chain, fault);
   const std::size_t from = chain.states.empty() ? 0 : chain.states.size() - 1;
   std::int64_t strike_utime = chain.truth.empty() ? 0 : chain.truth.back().utime;
   if (fault.simulated.empty()) {
     fault.strike(chain);
     chain.listen_for(1.2);
   } else {
-    chain.listen_until([&] { return chain.true_speed_mps() < 0.01; }, 8.0);
-    chain.listen_for(0.5);
+    chain.listen_for(1.6);
     strike_utime = simulated_strike(chain, from);
   }
   Outcome outcome = judge(chain, strike_utime);
   outcome.has_driven = has_driven;
-  outcome.reason = reason_after(chain, strike_utime);
+  outcome.reasons = reasons_after(chain, strike_utime);
   if (!chain.states.empty()) outcome.last_state = chain.states.back();
   outcome.output = chain.output();
+  outcome.is_disturbed = !has_driven || chain.longest_stall_s() > kStall_s;
+  return outcome;
+}
+
+/// The first drive the machine let go on in peace; the last one if it never did.
+Outcome undisturbed_drive_into(const Fault& fault, int port) {
+  free_places().acquire();
+  Outcome outcome = drive_into(fault, port);
+  for (int i = 1; i < kAttempts && outcome.is_disturbed; ++i) outcome = drive_into(fault, port);
   free_places().release();
   return outcome;
 }
@@ -191,7 +236,8 @@ class SafetyFault : public ::testing::TestWithParam<Fault> {
     enter_private_network();
     int port = 27800;
     for (const Fault& fault : faults()) {
-      drives()[fault.name] = std::async(std::launch::async, drive_into, fault, ++port).share();
+      drives()[fault.name] =
+          std::async(std::launch::async, undisturbed_drive_into, fault, ++port).share();
     }
   }
   static std::map<std::string, std::shared_future<Outcome>>& drives() {
@@ -203,12 +249,13 @@ class SafetyFault : public ::testing::TestWithParam<Fault> {
 TEST_P(SafetyFault, StopsTheWheelsOrChangesNothing) {
   const Fault& fault = GetParam();
   const Outcome outcome = drives().at(fault.name).get();
-  std::printf("%-24s %5.0f ms %6.3f m  %s\n", fault.name.c_str(),
-              outcome.stop_s ? 1e3 * *outcome.stop_s : -1.0, outcome.way_m, outcome.reason.c_str());
+  std::printf("%-24s %5.0f ms %6.3f m  %s%s\n", fault.name.c_str(),
+              outcome.stop_s ? 1e3 * *outcome.stop_s : -1.0, outcome.way_m, outcome.reasons.c_str(),
+              outcome.is_disturbed ? "  (machine stalled)" : "");
   ASSERT_TRUE(outcome.has_driven) << outcome.output;
   EXPECT_LT(outcome.fastest_mps, 0.36);
   if (fault.goes_on) {
-    EXPECT_FALSE(outcome.stop_s.has_value()) << outcome.reason;
+    EXPECT_FALSE(outcome.stop_s.has_value()) << outcome.reasons;
     const create_state_t& state = outcome.last_state;
     EXPECT_GT(state.refused_unsigned + state.refused_forged + state.refused_out_of_order, 30);
     return;
@@ -216,7 +263,7 @@ TEST_P(SafetyFault, StopsTheWheelsOrChangesNothing) {
   ASSERT_TRUE(outcome.stop_s.has_value()) << outcome.output;
   // 0.3 m/s for 300 ms, and as much again for a machine that has other things to do.
   EXPECT_LT(outcome.way_m, 0.18);
-  EXPECT_NE(outcome.reason.find(fault.reason), std::string::npos) << outcome.reason;
+  EXPECT_NE(outcome.reasons.find(fault.reason), std::string::npos) << outcome.reasons;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SafetyFault, ::testing::ValuesIn(faults()),

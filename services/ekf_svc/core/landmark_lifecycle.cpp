@@ -10,10 +10,24 @@ constexpr int kScoreMax = 20;
 constexpr int kScoreGone = -4;
 constexpr double kBehind_rad = 0.035;  // as seen past a thin thing's edge
 constexpr double kBehind_m = 0.3;
-constexpr double kSigmaMax_m = 0.1;  // of the landmark's place relative to the robot
+constexpr double kBeside_rad = 0.02;  // every beam so near must have gone past
+constexpr double kSigmaMax_m = 0.1;   // of the landmark's place relative to the robot
 
 bool counts_as_seen(Verdict verdict) {
   return verdict == Verdict::kMatched || verdict == Verdict::kHeld;
+}
+
+/// Whether all beams within `beside_rad` of a bearing were measured and end beyond `range_m`.
+bool sees_beyond(const VirtualScan& scan, double bearing_rad, double beside_rad, double range_m) {
+  const auto beam_at = [&scan](double at_rad) {
+    return std::floor((at_rad - scan.first_bearing_rad) / scan.bearing_step_rad);
+  };
+  const double first = beam_at(bearing_rad - beside_rad), last = beam_at(bearing_rad + beside_rad);
+  if (first < 0.0 || last >= static_cast<double>(scan.range_m.size())) return false;
+  const auto beams = scan.range_m.subspan(static_cast<std::size_t>(first),
+                                          static_cast<std::size_t>(last - first) + 1);
+  return std::all_of(beams.begin(), beams.end(),
+                     [range_m](float beam_m) { return static_cast<double>(beam_m) > range_m; });
 }
 
 }  // namespace
@@ -62,17 +76,16 @@ std::span<const std::size_t> LandmarkLifecycle::weigh(SlamFilter& filter,
 bool LandmarkLifecycle::is_looked_through(const Eigen::Vector2d& p_robot_m, double sigma_m,
                                           std::span<const Sighting> sightings,
                                           const VirtualScan& scan) const {
-  const double range_m = p_robot_m.norm() + 3.0 * sigma_m;
+  const double range_m = p_robot_m.norm();
   const double bearing_rad = std::atan2(p_robot_m.y(), p_robot_m.x());
+  const double place_rad = 3.0 * sigma_m / range_m;
+  const double behind_m = range_m + 3.0 * sigma_m + kBehind_m;
   if (!scan.range_m.empty()) {
-    const double beam = (bearing_rad - scan.first_bearing_rad) / scan.bearing_step_rad;
-    const auto count = static_cast<double>(scan.range_m.size());
-    if (!(beam >= 0.0 && beam < count)) return false;
-    return static_cast<double>(scan.range_m[static_cast<std::size_t>(beam)]) > range_m;
+    return sees_beyond(scan, bearing_rad, kBeside_rad + place_rad, behind_m);
   }
-  const double window_rad = std::max(0.0, kBehind_rad - 3.0 * sigma_m / p_robot_m.norm());
+  const double window_rad = std::max(0.0, kBehind_rad - place_rad);
   return std::any_of(sightings.begin(), sightings.end(), [&](const Sighting& seen) {
-    return check(seen) == Verdict::kMatched && seen.polar.range_m > range_m + kBehind_m &&
+    return check(seen) == Verdict::kMatched && seen.polar.range_m > behind_m &&
            std::abs(wrap_angle(seen.polar.bearing_rad - bearing_rad)) < window_rad;
   });
 }

@@ -17,11 +17,14 @@ constexpr JointCompatibility::Limits kLocalLimits{.normal_quantile = kNormal99, 
 LocalAssociation::LocalAssociation(const SlamFilter& filter) : filter_(&filter), joint_(filter) {
   locals_.reserve(filter.landmark_budget());
   offers_.reserve(256);
+  candidates_.reserve(1024);
+  is_taken_.resize(filter.landmark_budget());
 }
 
 void LocalAssociation::begin(double travel_m) {
   locals_.clear();
   offers_.clear();
+  candidates_.clear();
   joint_.clear();
   const Eigen::Matrix3d P = filter_->pose_covariance();
   const Eigen::Vector2d p_robot_m = filter_->pose().position_m();
@@ -43,7 +46,7 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
                              const BodyObservation& seen) {
   const Eigen::Vector2d p_map_m = transform(filter_->pose(), seen.p_robot_m);
   const double noise_m2 = seen.covariance_m2.trace();
-  Offer offer{sighting, std::numeric_limits<double>::infinity(), false};
+  Offer offer{sighting, std::numeric_limits<double>::infinity(), false, candidates_.size()};
   for (const LocalLandmark& local : locals_) {
     if (filter_->landmark(local.index).kind != what.kind) continue;
     const double distance_m2 = (local.p_map_m - p_map_m).squaredNorm();
@@ -63,6 +66,7 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
       offer.has_candidates = true;
     }
     joint_.add({residual, local.index, colour, squared});
+    candidates_.push_back(local.index);
   }
   offers_.push_back(offer);
   return true;
@@ -82,17 +86,31 @@ bool LocalAssociation::is_well_known(const LocalLandmark& local, double variance
 
 void LocalAssociation::decide(std::span<Verdict> verdicts, std::span<Candidate> candidates) {
   const JointCompatibility::Answer& answer = joint_.search(kLocalLimits);
+  std::fill(is_taken_.begin(), is_taken_.end(), false);
   std::size_t observation = 0;
   for (const Offer& offer : offers_) {
     const Pairing* pairing = offer.has_candidates ? answer.chosen[observation++] : nullptr;
-    Verdict& verdict = verdicts[offer.sighting];
-    if (pairing != nullptr) {
-      verdict = Verdict::kMatched;
-      candidates[offer.sighting] = {pairing->target, pairing->squared};
-    } else {
-      verdict = offer.nearest_sq > kNewLandmarkSq ? Verdict::kAdded : Verdict::kAmbiguous;
-    }
+    verdicts[offer.sighting] = Verdict::kAmbiguous;
+    if (pairing == nullptr) continue;
+    verdicts[offer.sighting] = Verdict::kMatched;
+    candidates[offer.sighting] = {pairing->target, pairing->squared};
+    is_taken_[pairing->target] = true;
   }
+  for (std::size_t i = 0; i < offers_.size(); ++i) {
+    Verdict& verdict = verdicts[offers_[i].sighting];
+    const bool is_new = offers_[i].nearest_sq > kNewLandmarkSq || are_all_taken(i);
+    if (verdict == Verdict::kAmbiguous && is_new) verdict = Verdict::kAdded;
+  }
+}
+
+/// Whether the offer has candidates and each was seen elsewhere in this frame.
+bool LocalAssociation::are_all_taken(std::size_t offer) const {
+  const std::size_t first = offers_[offer].first_candidate;
+  const std::size_t end =
+      offer + 1 < offers_.size() ? offers_[offer + 1].first_candidate : candidates_.size();
+  return first < end && std::all_of(candidates_.begin() + static_cast<std::ptrdiff_t>(first),
+                                    candidates_.begin() + static_cast<std::ptrdiff_t>(end),
+                                    [this](std::size_t landmark) { return is_taken_[landmark]; });
 }
 
 }  // namespace roomwise::ekf

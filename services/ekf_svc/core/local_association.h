@@ -15,7 +15,8 @@ namespace roomwise::ekf {
 /// from the next.
 ///
 /// A sighting joins the jointly compatible set (99 %), or is of something new if no local landmark
-/// is nearer than d^2 = 25, or else ambiguous (Bailey et al., IROS 2006).
+/// is nearer than d^2 = 25 or if all it could be are seen beside it in the same frame, or else
+/// ambiguous (Bailey et al., IROS 2006).
 class LocalAssociation {
  public:
   explicit LocalAssociation(const SlamFilter& filter);
@@ -44,13 +45,17 @@ class LocalAssociation {
     std::size_t sighting;
     double nearest_sq;
     bool has_candidates;
+    std::size_t first_candidate;  // in candidates_
   };
 
+  bool are_all_taken(std::size_t offer) const;
   bool is_well_known(const LocalLandmark& local, double variance_m2) const;
 
   const SlamFilter* filter_;
   std::vector<LocalLandmark> locals_;
   std::vector<Offer> offers_;
+  std::vector<std::size_t> candidates_;  // landmark numbers, offer by offer
+  std::vector<bool> is_taken_;           // by landmark number, in this frame
   JointCompatibility joint_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "services/ekf_svc/core/slam.h"
 
 namespace roomwise::ekf {
@@ -22,8 +25,10 @@ class Lifecycle : public testing::Test {
     params_.confirm_sightings = 1;
     params_.update_travel_m = 0.0;
   }
-  /// Rolls 2 cm on and looks at the places given.
-  void look(Slam& slam, const std::vector<Eigen::Vector2d>& places, double wall_m = 0.0) {
+  /// Rolls 2 cm on and looks at the places given, and at a wall: nearer from straight ahead to the
+  /// right if that is said.
+  void look(Slam& slam, const std::vector<Eigen::Vector2d>& places, double wall_m = 0.0,
+            float to_the_right_m = 0.0F) {
     MotionIncrement motion;
     motion.append(arc_step(0.02, 0.0, 1e-8 * Eigen::Matrix2d::Identity()));
     robot_ = moved(robot_, motion);
@@ -31,7 +36,8 @@ class Lifecycle : public testing::Test {
     std::vector<Sighting> sightings;
     for (const auto& place : places) sightings.push_back(seen_at(robot_, place));
     std::vector<Verdict> verdicts(sightings.size());
-    const std::vector<float> beams(100, static_cast<float>(wall_m));
+    std::vector<float> beams(100, static_cast<float>(wall_m));
+    if (to_the_right_m != 0.0F) std::fill_n(beams.begin(), 49, to_the_right_m);
     const VirtualScan scan{-0.5, 0.01, beams};
     slam.process(sightings, true, verdicts, wall_m > 0.0 ? scan : VirtualScan{});
   }
@@ -55,6 +61,20 @@ TEST_F(Lifecycle, WhatIsHiddenStays) {
   Slam slam(params_);
   for (int i = 0; i < 6; ++i) look(slam, {chair_, door_}, 4.0);
   for (int i = 0; i < 30; ++i) look(slam, {door_}, 0.9);  // somebody stands before it
+  EXPECT_EQ(slam.filter().landmark_count(), 2U);
+}
+
+TEST_F(Lifecycle, WhatStandsAtTheEdgeOfSomethingNearIsNotLookedThrough) {
+  Slam slam(params_);
+  for (int i = 0; i < 6; ++i) look(slam, {chair_, door_}, 4.0);
+  for (int i = 0; i < 30; ++i) look(slam, {door_}, 4.0, 0.9F);  // to the chair's right: hidden
+  EXPECT_EQ(slam.filter().landmark_count(), 2U);
+}
+
+TEST_F(Lifecycle, WhatNoBeamTellsOfStays) {
+  Slam slam(params_);
+  for (int i = 0; i < 6; ++i) look(slam, {chair_, door_}, 4.0);
+  for (int i = 0; i < 30; ++i) look(slam, {door_}, 4.0, std::nanf(""));
   EXPECT_EQ(slam.filter().landmark_count(), 2U);
 }
 

@@ -92,12 +92,22 @@ TEST_F(SlamTest, UnknownIdentityTwoGates) {
   EXPECT_EQ(verdicts_[0], Verdict::kAdded);
 }
 
-TEST_F(SlamTest, OnlyTheNearestSightingTakesALandmark) {
+// A frame tells of each thing once.
+TEST_F(SlamTest, OnlyTheNearestSightingTakesALandmarkAndTheOtherIsOfAnother) {
   look({sighting_of(truth_, {3.0, 0.0}, -1)});
   look({sighting_of(truth_, {3.02, 0.0}, -1), sighting_of(truth_, {3.0, 0.0}, -1)});
+  EXPECT_EQ(verdicts_[0], Verdict::kAdded);
+  EXPECT_EQ(verdicts_[1], Verdict::kMatched);
+  EXPECT_EQ(slam_.filter().landmark_count(), 2U);
+}
+
+TEST_F(SlamTest, WhatIsInDoubtBetweenALandmarkAndNothingStaysInDoubtBesideAnother) {
+  look({sighting_of(truth_, {3.0, 0.0}, -1), sighting_of(truth_, {3.0, 1.0}, -1)});
+  const double sigma =
+      std::sqrt(slam_.filter().landmark_covariance_m2(0)(0, 0) + kSigma * kSigma + 0.015 * 0.015);
+  look({sighting_of(truth_, {3.0 + 4.0 * sigma, 0.0}, -1), sighting_of(truth_, {3.0, 1.0}, -1)});
   EXPECT_EQ(verdicts_[0], Verdict::kAmbiguous);
   EXPECT_EQ(verdicts_[1], Verdict::kMatched);
-  EXPECT_EQ(slam_.filter().landmark_count(), 1U);
 }
 
 TEST_F(SlamTest, AnotherKindIsAnotherLandmark) {

@@ -1,5 +1,6 @@
 #include "tests/safety_svc/support/safety_chain.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -56,11 +57,16 @@ bool SafetyChain::listen_until(const std::function<bool()>& enough, double patie
   bus.subscribe(channels::kVelCmd, [this](const velocity_command_t& m) { commands.push_back(m); });
   const auto end = Clock::now() + milliseconds(std::lround(1000.0 * patience_s));
   bool is_enough = false;
+  Clock::time_point last = Clock::now();
   bus.every(milliseconds(10), [&](Time) {
+    const Clock::time_point now = Clock::now();
+    longest_stall_s_ =
+        std::max(longest_stall_s_, std::chrono::duration<double>(now - last).count());
+    last = now;
     if (asks && ++turns_ % 5 == 0) ask(bus);
     if (also) also(bus);
     is_enough = enough();
-    if (is_enough || Clock::now() > end) bus.stop();
+    if (is_enough || now > end) bus.stop();
   });
   bus.run();
   return is_enough;

@@ -51,6 +51,11 @@ class SafetyChain {
 
   /// How fast the robot really moves [m/s].
   double true_speed_mps() const;
+
+  /// The longest this listener, which asks to be called every 10 ms, was left waiting since
+  /// forget_stalls(): how much of its time the machine gave to others [s].
+  double longest_stall_s() const { return longest_stall_s_; }
+  void forget_stalls() { longest_stall_s_ = 0.0; }
   std::filesystem::path folder() const { return folder_.path(); }
   std::string output() const;
 
@@ -62,6 +67,7 @@ class SafetyChain {
   ScratchFolder folder_;
   std::unique_ptr<ChildProcess> processes_[kParts];
   int turns_ = 0;
+  double longest_stall_s_ = 0.0;
 };
 
 }  // namespace roomwise
