@@ -1,6 +1,6 @@
 /** The colour picture with what the services see in it, and rectangles to train from. */
 import { decompress } from "fzstd";
-import { kindColor, LABEL_COLORS } from "./colors";
+import { kindColor, LABEL_COLORS, pixelsOf, rgba } from "./colors";
 import type { Connection } from "./connection";
 import { context2d, element, say } from "./dom";
 import type { Frame, Frames } from "./frames";
@@ -8,6 +8,8 @@ import { landmark_list_t, segment_training_t, segmentation_t, type training_rect
 
 const LABEL_OPACITY = 64;
 const LARGEST_LABELS = 1 << 24;
+const LABEL_PIXELS = Uint32Array.from({ length: 256 }, (_, label) =>
+  LABEL_COLORS[label] ? rgba(...LABEL_COLORS[label], LABEL_OPACITY) : 0);
 const isOn = (id: string) => element<HTMLInputElement>(id).checked;
 
 interface Rectangle {
@@ -22,7 +24,8 @@ export class CameraPanel {
   private readonly canvas = element<HTMLCanvasElement>("camera");
   private readonly context = context2d(this.canvas);
   private landmarks: landmark_list_t | null = null;
-  private labels: ImageBitmap | null = null;
+  private segments: segmentation_t | null = null;
+  private readonly labels = context2d(document.createElement("canvas"));
   private rectangles: Rectangle[] = [];
   private start: { u: number; v: number } | null = null;
   private frame_utime = 0n;
@@ -34,10 +37,10 @@ export class CameraPanel {
   ) {
     frames.onFrame((frame) => this.draw(frame));
     connection.on("LANDMARKS", landmark_list_t, (m) => (this.landmarks = m));
-    connection.on("SEGMENTS", segmentation_t, (m) => void this.takeLabels(m));
+    connection.on("SEGMENTS", segmentation_t, (m) => (this.segments = m));
     connection.onReset(() => {
       this.landmarks = null;
-      this.labels = null;
+      this.segments = null;
       this.rectangles = [];
     });
     this.canvas.addEventListener("pointerdown", (e) => this.begin(e));
@@ -46,18 +49,22 @@ export class CameraPanel {
     element("train_clear").addEventListener("click", () => (this.rectangles = []));
   }
 
-  private async takeLabels(m: segmentation_t): Promise<void> {
+  private drawLabels(): void {
+    const m = this.segments;
+    if (!m) return;
     const size = m.label_width_px * m.label_height_px;
-    if (!isOn("show_labels") || size <= 0 || size > LARGEST_LABELS) return;
+    if (size <= 0 || size > LARGEST_LABELS) return;
     const bytes =
       m.label_encoding === 1 ? decompress(m.label_data, new Uint8Array(size)) : m.label_data;
     if (bytes.length !== size) return;
     const image = new ImageData(m.label_width_px, m.label_height_px);
-    for (let i = 0; i < size; ++i) {
-      const color = LABEL_COLORS[bytes[i]];
-      if (color) image.data.set([...color, LABEL_OPACITY], 4 * i);
-    }
-    this.labels = await createImageBitmap(image);
+    const pixels = pixelsOf(image);
+    for (let i = 0; i < size; ++i) pixels[i] = LABEL_PIXELS[bytes[i]];
+    this.labels.canvas.width = image.width;
+    this.labels.canvas.height = image.height;
+    this.labels.putImageData(image, 0, 0);
+    this.context.drawImage(this.labels.canvas, 0, 0, this.canvas.width, this.canvas.height);
+    this.canvas.dataset.labels = String(m.seq);
   }
 
   private draw(frame: Frame): void {
@@ -68,7 +75,7 @@ export class CameraPanel {
     this.canvas.height = message.depth_height_px;
     const { width, height } = this.canvas;
     if (color) this.context.drawImage(color, 0, 0, width, height);
-    if (isOn("show_labels") && this.labels) this.context.drawImage(this.labels, 0, 0, width, height);
+    if (isOn("show_labels")) this.drawLabels();
     if (isOn("show_edges")) this.drawEdges();
     if (isOn("show_landmarks")) this.drawLandmarks();
     this.rectangles.forEach((r) => this.drawRectangle(r));

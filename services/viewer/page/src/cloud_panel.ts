@@ -5,6 +5,7 @@ import type { Connection } from "./connection";
 import { context2d, element } from "./dom";
 import type { Frame, Frames } from "./frames";
 
+const WITHOUT_COLOR = [190, 196, 206];
 const MOST_POINTS = 80_000;
 /** Where a processor must do the graphics, drawing costs more than all else. */
 const SHORTEST_INTERVAL_MS = 250;
@@ -52,19 +53,22 @@ export class CloudPanel {
     const step = Math.ceil(Math.sqrt(depth.length / MOST_POINTS));
     const pixels = this.pixelsOf(color, m.depth_width_px, m.depth_height_px);
     const [w, x, y, z] = m.T_robot_camera_quat;
-    const turn = new three.Quaternion(x, y, z, w);
-    const move = new three.Vector3(...(m.T_robot_camera_translation_m as [number, number, number]));
-    const point = new three.Vector3();
+    const turn = new three.Matrix4().makeRotationFromQuaternion(new three.Quaternion(x, y, z, w)).elements;
+    const move = m.T_robot_camera_translation_m;
+    const { positions, colors } = this;
     let count = 0;
     for (let v = 0; v < m.depth_height_px; v += step) {
       for (let u = 0; u < m.depth_width_px; u += step) {
         const pixel = v * m.depth_width_px + u;
         const z_m = depth[pixel] * m.depth_unit_m;
         if (z_m === 0 || count === MOST_POINTS) continue;
-        point.set(((u - m.depth_cx_px) / m.depth_fx_px) * z_m, ((v - m.depth_cy_px) / m.depth_fy_px) * z_m, z_m);
-        point.applyQuaternion(turn).add(move).toArray(this.positions, 3 * count);
-        this.colors.set(pixels ? pixels.subarray(4 * pixel, 4 * pixel + 3) : [190, 196, 206], 3 * count);
-        ++count;
+        const x_m = ((u - m.depth_cx_px) / m.depth_fx_px) * z_m;
+        const y_m = ((v - m.depth_cy_px) / m.depth_fy_px) * z_m;
+        const at = 3 * count++;
+        for (let i = 0; i < 3; ++i) {
+          positions[at + i] = turn[i] * x_m + turn[4 + i] * y_m + turn[8 + i] * z_m + move[i];
+          colors[at + i] = pixels ? pixels[4 * pixel + i] : WITHOUT_COLOR[i];
+        }
       }
     }
     this.geometry.setDrawRange(0, count);

@@ -10,6 +10,13 @@ export const LABEL_COLORS: Record<number, [number, number, number]> = {
   200: [63, 201, 100],
 };
 
+/** A pixel of ImageData, taken as one 32-bit number (every machine with a browser is little-endian). */
+export const rgba = (red: number, green: number, blue: number, alpha = 255): number =>
+  ((alpha << 24) | (blue << 16) | (green << 8) | red) >>> 0;
+
+/** ImageData's pixels as such numbers. */
+export const pixelsOf = (image: ImageData): Uint32Array => new Uint32Array(image.data.buffer);
+
 export const PATH_COLORS = { truth: "#3fc964", odometry: "#8b929e", estimate: "#ffb454" };
 
 /** Turbo-like false colour, near red to far blue, of a ratio in [0, 1]. */

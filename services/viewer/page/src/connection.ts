@@ -16,9 +16,14 @@ export interface Status {
 
 const RETRY_MS = 1000;
 
+interface Listeners {
+  decode: (bytes: Uint8Array) => unknown;
+  handles: ((message: unknown, utime: number) => void)[];
+}
+
 export class Connection {
   private socket?: WebSocket;
-  private readonly handlers = new Map<string, ((bytes: Uint8Array, utime: number) => void)[]>();
+  private readonly listeners = new Map<string, Listeners>();
   private statusHandlers: ((status: Status | null) => void)[] = [];
   private resetHandlers: (() => void)[] = [];
   private source = "";
@@ -27,9 +32,9 @@ export class Connection {
 
   /** `handle(message, time [us])`. A message that does not decode is counted and dropped. */
   on<T>(channel: string, codec: Codec<T>, handle: (message: T, utime: number) => void): void {
-    const list = this.handlers.get(channel) ?? [];
-    list.push((bytes, utime) => handle(codec.decode(bytes), utime));
-    this.handlers.set(channel, list);
+    const listeners = this.listeners.get(channel) ?? { decode: codec.decode, handles: [] };
+    listeners.handles.push((message, utime) => handle(message as T, utime));
+    this.listeners.set(channel, listeners);
   }
 
   /** Null: the server is gone. */
@@ -83,13 +88,14 @@ export class Connection {
     const first = 1 + bytes[0];
     const channel = new TextDecoder().decode(bytes.subarray(1, first));
     const utime = Number(new DataView(bytes.buffer).getBigInt64(first));
-    for (const handle of this.handlers.get(channel) ?? []) {
-      try {
-        handle(bytes.subarray(first + 8), utime);
-      } catch (error) {
-        if (!(error instanceof RangeError)) throw error;
-        ++this.undecodable;
-      }
+    const listeners = this.listeners.get(channel);
+    if (!listeners) return;
+    try {
+      const message = listeners.decode(bytes.subarray(first + 8));
+      listeners.handles.forEach((handle) => handle(message, utime));
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      ++this.undecodable;
     }
   }
 }

@@ -1,5 +1,5 @@
 /** Depth in false colour, its histogram, and the range that landmark_svc takes from it. */
-import { falseColor } from "./colors";
+import { falseColor, pixelsOf, rgba } from "./colors";
 import type { Connection } from "./connection";
 import { context2d, element, fitToScreen, say } from "./dom";
 import type { Frame, Frames } from "./frames";
@@ -8,6 +8,8 @@ import { landmark_list_t } from "./messages";
 const FARTHEST_M = 6;
 const BINS = 120;
 const PALETTE = Array.from({ length: 256 }, (_, i) => falseColor(i / 255));
+const PIXELS = Uint32Array.from(PALETTE, (color) => rgba(...color));
+const NO_DEPTH = rgba(0, 0, 0);
 
 export class DepthPanel {
   private readonly canvas = element<HTMLCanvasElement>("depth");
@@ -25,15 +27,13 @@ export class DepthPanel {
   private draw({ message, depth }: Frame): void {
     const image = new ImageData(message.depth_width_px, message.depth_height_px);
     const counts = new Array<number>(BINS).fill(0);
+    const pixels = pixelsOf(image).fill(NO_DEPTH);
+    const ratioPerStep = message.depth_unit_m / FARTHEST_M;
     for (let i = 0; i < depth.length; ++i) {
-      const ratio = (depth[i] * message.depth_unit_m) / FARTHEST_M;
-      image.data[4 * i + 3] = 255;
+      const ratio = depth[i] * ratioPerStep;
       if (ratio <= 0 || ratio >= 1) continue;
-      counts[Math.floor(ratio * BINS)]++;
-      const [red, green, blue] = PALETTE[Math.floor(ratio * 255)];
-      image.data[4 * i] = red;
-      image.data[4 * i + 1] = green;
-      image.data[4 * i + 2] = blue;
+      counts[(ratio * BINS) | 0]++;
+      pixels[i] = PIXELS[(ratio * 255) | 0];
     }
     this.canvas.width = image.width;
     this.canvas.height = image.height;

@@ -44,6 +44,7 @@ export class Frames {
   private waiting: kinect_frame_t | null = null;
   private busy = false;
   private handlers: ((frame: Frame) => void)[] = [];
+  private shown: (() => void)[] = [];
 
   constructor(connection: Connection) {
     connection.on("KINECT_FRAME", kinect_frame_t, (message) => {
@@ -56,6 +57,11 @@ export class Frames {
     this.handlers.push(handle);
   }
 
+  /** Calls back once, after the first frame was shown. */
+  onceShown(handle: () => void): void {
+    this.shown.push(handle);
+  }
+
   private async decodeNext(): Promise<void> {
     const message = this.waiting;
     if (this.busy || message === null || document.hidden) return;
@@ -66,6 +72,7 @@ export class Frames {
       const frame = { message, depth: depthOf(message), color: await colorOf(message).catch(() => null) };
       this.handlers.forEach((handle) => handle(frame));
       frame.color?.close();
+      this.shown.splice(0).forEach((handle) => requestAnimationFrame(() => setTimeout(handle)));
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
     } finally {

@@ -1,6 +1,5 @@
 /** The page: one connection, and the panels that look at it. */
 import { CameraPanel } from "./camera_panel";
-import { CloudPanel } from "./cloud_panel";
 import { Connection } from "./connection";
 import { DepthPanel } from "./depth_panel";
 import { Drive } from "./drive";
@@ -21,9 +20,14 @@ new Plots(connection, poses);
 const frames = new Frames(connection);
 new CameraPanel(connection, frames);
 new DepthPanel(connection, frames);
-try {
-  new CloudPanel(connection, frames);
-} catch {
-  document.body.dataset.webgl = "none"; // the rest of the page does without
-}
 connection.open();
+
+/** Its library is larger than all the rest, and starting WebGL takes long: first a picture. */
+frames.onceShown(async () => {
+  try {
+    const { CloudPanel } = await import("./cloud_panel");
+    new CloudPanel(connection, frames);
+  } catch {
+    document.body.dataset.webgl = "none"; // the rest of the page does without
+  }
+});
