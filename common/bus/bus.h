@@ -43,6 +43,11 @@ class Bus {
   void subscribe(const Channel<Message>& channel, Handler handler,
                  Delivery delivery = Delivery::kEvery);
 
+  /// The same for a handler that passes on what was received: `handler(bytes)`, of a whole message.
+  template <class Message, class Handler>
+  void subscribe_undecoded(const Channel<Message>& channel, Handler handler,
+                           Delivery delivery = Delivery::kEvery);
+
   /// Sends `message` after setting its `seq`, which counts from 1 per channel.
   template <class Message>
   void publish(const Channel<Message>& channel, Message& message);
@@ -88,6 +93,9 @@ class Bus {
  private:
   using Decoder = std::function<void(std::span<const std::uint8_t>, ChannelStatistics&)>;
 
+  template <class Message, class Handler>
+  void subscribe_both(const Channel<Message>& channel, Handler handler, Delivery delivery);
+
   /// Counts a decoded message and what `seq` says was missed before it.
   void account(ChannelStatistics& statistics, std::int64_t seq);
   void add_decoder(std::string_view channel, Decoder decoder);
@@ -101,16 +109,35 @@ class Bus {
 
 template <class Message, class Handler>
 void Bus::subscribe(const Channel<Message>& channel, Handler handler, Delivery delivery) {
+  subscribe_both(
+      channel,
+      [handler = std::move(handler)](const Message& message,
+                                     std::span<const std::uint8_t>) mutable { handler(message); },
+      delivery);
+}
+
+template <class Message, class Handler>
+void Bus::subscribe_undecoded(const Channel<Message>& channel, Handler handler, Delivery delivery) {
+  subscribe_both(
+      channel,
+      [handler = std::move(handler)](const Message&, std::span<const std::uint8_t> bytes) mutable {
+        handler(bytes);
+      },
+      delivery);
+}
+
+template <class Message, class Handler>
+void Bus::subscribe_both(const Channel<Message>& channel, Handler handler, Delivery delivery) {
   add_decoder(channel.name,
               [this, handler = std::move(handler), message = std::make_shared<Message>()](
-                  std::span<const std::uint8_t> bytes, ChannelStatistics& seen) {
+                  std::span<const std::uint8_t> bytes, ChannelStatistics& seen) mutable {
                 const DecodeResult result = decode(bytes, *message);
                 if (result != DecodeResult::kOk) {
                   ++seen.undecodable;
                   return;
                 }
                 account(seen, message->seq);
-                handler(static_cast<const Message&>(*message));
+                handler(static_cast<const Message&>(*message), bytes);
               });
   subscribe_bytes(std::string(channel.name), delivery);
 }

@@ -33,6 +33,9 @@ class LogReader {
 
   std::uint64_t size_bytes() const { return file_.bytes().size(); }
   std::uint64_t position_bytes() const { return position_; }
+  /// The next event read is the one that starts at `byte`, as position_bytes() said before reading
+  /// it.
+  void go_to(std::uint64_t byte) { position_ = byte; }
   const std::vector<LogDamage>& damage() const { return damage_; }
 
   /// "run.lcmlog: damaged at byte 99984: 56 bytes passed over", a line for each; empty if none.

@@ -1,0 +1,85 @@
+/** The newest camera frame, decoded once for every panel that shows it. */
+import type { Connection } from "./connection";
+import { kinect_frame_t } from "./messages";
+import { decodePdz16 } from "./pdz16";
+
+export interface Frame {
+  message: kinect_frame_t;
+  depth: Uint16Array;
+  /** Null where the camera gives no colour. */
+  color: ImageBitmap | null;
+}
+
+const LONGEST_SIDE_PX = 4096;
+/** Decoding and drawing is the dearest thing the page does; the eye is content with this. */
+const SHORTEST_PAUSE_MS = 40;
+
+function depthOf(m: kinect_frame_t): Uint16Array {
+  const size = m.depth_width_px * m.depth_height_px;
+  if (Math.max(m.depth_width_px, m.depth_height_px) > LONGEST_SIDE_PX || size <= 0) {
+    throw new RangeError("a depth image of absurd size");
+  }
+  if (m.depth_encoding === 1) return decodePdz16(m.depth_data, m.depth_width_px, m.depth_height_px);
+  if (m.depth_data.length !== 2 * size) throw new RangeError("a depth image of another size");
+  return new Uint16Array(m.depth_data.slice().buffer);
+}
+
+async function colorOf(m: kinect_frame_t): Promise<ImageBitmap | null> {
+  if (m.color_encoding === 2) {
+    return createImageBitmap(new Blob([m.color_data.slice()], { type: "image/jpeg" }));
+  }
+  const size = m.color_width_px * m.color_height_px;
+  if (m.color_encoding !== 1 || size <= 0 || m.color_data.length !== 3 * size) return null;
+  const image = new ImageData(m.color_width_px, m.color_height_px);
+  for (let from = 0, to = 0; from < 3 * size; from += 3, to += 4) {
+    image.data[to] = m.color_data[from];
+    image.data[to + 1] = m.color_data[from + 1];
+    image.data[to + 2] = m.color_data[from + 2];
+    image.data[to + 3] = 255;
+  }
+  return createImageBitmap(image);
+}
+
+export class Frames {
+  private waiting: kinect_frame_t | null = null;
+  private busy = false;
+  private handlers: ((frame: Frame) => void)[] = [];
+  private shown: (() => void)[] = [];
+
+  constructor(connection: Connection) {
+    connection.on("KINECT_FRAME", kinect_frame_t, (message) => {
+      this.waiting = message;
+      void this.decodeNext();
+    });
+  }
+
+  onFrame(handle: (frame: Frame) => void): void {
+    this.handlers.push(handle);
+  }
+
+  /** Calls back once, after the first frame was shown. */
+  onceShown(handle: () => void): void {
+    this.shown.push(handle);
+  }
+
+  private async decodeNext(): Promise<void> {
+    const message = this.waiting;
+    if (this.busy || message === null || document.hidden) return;
+    this.busy = true;
+    this.waiting = null;
+    const began_ms = performance.now();
+    try {
+      const frame = { message, depth: depthOf(message), color: await colorOf(message).catch(() => null) };
+      this.handlers.forEach((handle) => handle(frame));
+      frame.color?.close();
+      this.shown.splice(0).forEach((handle) => requestAnimationFrame(() => setTimeout(handle)));
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+    } finally {
+      setTimeout(() => {
+        this.busy = false;
+        void this.decodeNext();
+      }, Math.max(SHORTEST_PAUSE_MS, performance.now() - began_ms)); // half the time is for the rest
+    }
+  }
+}

@@ -1,0 +1,218 @@
+// Uses the page as a person would, in a real browser, and prints one JSON line for each thing found:
+// {"name", "ok", "detail"}. usage: node walk.mjs NODE_MODULES URL FOLDER WALK...
+// FOLDER gets a screenshot at the end of each walk, and whenever something was not as it should be.
+import { createRequire } from "node:module";
+
+const [nodeModules, url, folder, ...walks] = process.argv.slice(2);
+const { chromium } = createRequire(`${nodeModules}/`)("playwright-core");
+const PATIENCE_MS = 15_000;
+
+function report(name, ok, detail = "") {
+  console.log(JSON.stringify({ name, ok, detail: String(detail) }));
+}
+
+/** Waits until `look` returns something true in the page; returns it. */
+async function until(page, look, argument) {
+  const handle = await page.waitForFunction(look, argument, { timeout: PATIENCE_MS, polling: 50 });
+  return handle.jsonValue();
+}
+
+/** A picture that cannot be taken is no finding. */
+async function picture(page, name, options = {}) {
+  await page.screenshot({ path: `${folder}/${name}.png`, timeout: 10_000, ...options }).catch(() => {});
+}
+
+/** One finding: `run` throws if it is not so, or returns what is worth telling. */
+async function check(page, name, run) {
+  try {
+    report(name, true, (await run()) ?? "");
+  } catch (error) {
+    report(name, false, error.message.split("\n")[0]);
+    await picture(page, name.replaceAll(/\W+/g, "_"));
+  }
+}
+
+const text = (page, id) => page.locator(`#${id}`).textContent();
+
+/** What a canvas shows, as a number that differs from picture to picture. */
+const fingerprint = (id) => {
+  const canvas = document.getElementById(id);
+  const small = document.createElement("canvas");
+  small.width = 48;
+  small.height = 36;
+  const context = small.getContext("2d");
+  context.drawImage(canvas, 0, 0, 48, 36);
+  return context.getImageData(0, 0, 48, 36).data.reduce((sum, value, i) => (sum * 31 + value * (i + 1)) | 0, 7);
+};
+
+async function changes(page, id) {
+  const before = await page.evaluate(fingerprint, id);
+  await until(page, ([source, canvas, seen]) => new Function(`return (${source})`)()(canvas) !== seen,
+    [fingerprint.toString(), id, before]);
+}
+
+const position = (page) => page.evaluate(() => document.getElementById("pose").textContent);
+const speed = () => Number(document.getElementById("granted").textContent.split(" ")[0]);
+
+async function look(page) {
+  await check(page, "it is live and may control", () =>
+    until(page, () => document.body.dataset.mode === "live" && document.body.dataset.control === "true"));
+  for (const id of ["camera", "depth", "histogram", "map"]) {
+    await check(page, `${id} shows something that changes`, async () => {
+      if (id === "map") await until(page, () => Number(document.getElementById("map").dataset.landmarks) > 0);
+      if (id !== "map") await changes(page, id);
+    });
+  }
+  await check(page, "cloud has points", () =>
+    until(page, () => Number(document.getElementById("cloud").dataset.points) > 1000));
+  for (const plot of ["plot_nis", "plot_sigma", "plot_cost", "plot_latency"]) {
+    await check(page, `${plot} draws`, () => draws(page, plot));
+  }
+  await check(page, "services are listed", () =>
+    until(page, () => document.querySelectorAll("#health tr").length >= 8 && document.getElementById("health").innerText));
+  await check(page, "battery is shown", () => until(page, () => /\d+ %/.test(document.getElementById("battery").textContent)));
+}
+
+/** A plot's canvas has something in the colour of a line. */
+const draws = (page, id) => until(page, (plot) => {
+  const canvas = document.querySelector(`#${plot} canvas`);
+  if (!canvas) return false;
+  const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  for (let i = 0; i < data.length; i += 4) {
+    if (data[i + 3] > 128 && Math.max(data[i], data[i + 1], data[i + 2]) > 200) return true;
+  }
+  return false;
+}, id);
+
+async function drive(page) {
+  await page.bringToFront();
+  await check(page, "robot stands ready", () =>
+    until(page, () => ["RUN", "STOP", "SLOW"].includes(document.getElementById("safety").textContent)));
+  const before = await position(page);
+  await page.keyboard.down("KeyA");
+  await check(page, "a held key turns it", () => until(page, (seen) => {
+    const now = document.getElementById("pose").textContent;
+    return now.split("·")[2] !== seen.split("·")[2] && now;
+  }, before));
+  await page.keyboard.up("KeyA");
+  await check(page, "letting go stops it", () =>
+    until(page, () => document.getElementById("granted").textContent === "0.00 m/s · 0.00 rad/s"));
+  await page.keyboard.down("KeyD");
+  await check(page, "it turns again", () =>
+    until(page, () => !document.getElementById("granted").textContent.endsWith("0.00 rad/s")));
+  await page.keyboard.press("Space");
+  await check(page, "e-stop stops it though the key is held", () =>
+    until(page, () => document.getElementById("safety").textContent === "E-STOP" &&
+      document.getElementById("granted").textContent === "0.00 m/s · 0.00 rad/s"));
+  await page.keyboard.up("KeyD");
+  await page.waitForTimeout(1200); // a reset needs a calm robot and nobody who asks
+  await check(page, "reset lets it go on", async () => {
+    await page.locator("#reset").click();
+    return until(page, () => document.getElementById("safety").textContent !== "E-STOP");
+  });
+}
+
+async function stick(page) {
+  const box = await page.locator("#stick").boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.1, box.y + box.height / 2, { steps: 3 });
+  await check(page, "the stick turns it", () =>
+    until(page, () => !document.getElementById("granted").textContent.endsWith("0.00 rad/s")));
+  await page.mouse.up();
+  await check(page, "letting go of the stick stops it", () =>
+    until(page, () => document.getElementById("granted").textContent === "0.00 m/s · 0.00 rad/s"));
+}
+
+async function train(page) {
+  const drag = async (label, from, to) => {
+    const box = await page.locator("#camera").boundingBox();
+    const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
+    await page.locator("#train_label").selectOption(label);
+    await page.mouse.move(...at(from));
+    await page.mouse.down();
+    await page.mouse.move(...at(to), { steps: 3 });
+    await page.mouse.up();
+  };
+  await drag("200", [0.4, 0.82], [0.6, 0.95]);
+  await drag("100", [0.4, 0.05], [0.6, 0.2]);
+  await drag("0", [0.1, 0.4], [0.2, 0.6]);
+  await check(page, "three rectangles are drawn", () =>
+    until(page, () => document.getElementById("train_note").textContent === "3 drawn"));
+  await page.locator("#train").click();
+  await check(page, "they are sent", () =>
+    until(page, () => document.getElementById("train_note").textContent === "3 sent"));
+}
+
+async function goal(page) {
+  const before = await position(page);
+  const box = await page.locator("#map").boundingBox();
+  await page.mouse.click(box.x + box.width * 0.62, box.y + box.height * 0.5);
+  await check(page, "a goal on the map makes it drive", () => until(page, (seen) => {
+    const now = document.getElementById("pose").textContent;
+    return now.split("·")[1] !== seen.split("·")[1] && `${seen} -> ${now}, ${document.getElementById("pilot_state").textContent}`;
+  }, before));
+  await page.locator("#pilot_stop").click();
+  await check(page, "stop stands it still", () =>
+    until(page, () => document.getElementById("granted").textContent === "0.00 m/s · 0.00 rad/s"));
+}
+
+async function replay(page) {
+  const log = await page.locator("#logs option").nth(1).getAttribute("value");
+  await page.locator("#logs").selectOption(log);
+  await check(page, "the page says REPLAY", () => until(page, () => document.getElementById("mode").textContent === "REPLAY"));
+  await check(page, "driving is off in replay", () => until(page, () => document.body.dataset.control === "false"));
+  const frame = () => document.getElementById("camera").dataset.frame;
+  await until(page, () => Number(document.getElementById("seek").max) > 1);
+  if ((await text(page, "play")) === "Pause") await page.locator("#play").click();
+  await until(page, () => document.getElementById("play").textContent === "Play");
+  const seek = (to) => page.evaluate((value) => {
+    const slider = document.getElementById("seek");
+    slider.value = String(value);
+    slider.dispatchEvent(new Event("input"));
+    slider.dispatchEvent(new Event("change"));
+  }, to);
+  await seek(1.5);
+  await page.waitForTimeout(500);
+  const later = await page.evaluate(frame);
+  await seek(0.5);
+  await until(page, (seen) => document.getElementById("camera").dataset.frame !== seen, later);
+  await page.waitForTimeout(500);
+  const earlier = await page.evaluate(frame);
+  await seek(1.5);
+  await check(page, "seek lands on the same frame again", () =>
+    until(page, (seen) => document.getElementById("camera").dataset.frame === seen, later));
+  await check(page, "an earlier time is an earlier frame", () => {
+    if (!(Number(earlier) < Number(later))) throw new Error(`${earlier} is not before ${later}`);
+    return `${earlier} before ${later}`;
+  });
+  await page.locator("#step").click();
+  await check(page, "a step is the next frame", () =>
+    until(page, (seen) => Number(document.getElementById("camera").dataset.frame) === Number(seen) + 1, later));
+  await page.locator("#logs").selectOption("");
+  await check(page, "and it is live again", () => until(page, () => document.getElementById("mode").textContent === "LIVE"));
+}
+
+const WALKS = { look, drive, stick, train, goal, replay };
+const browser = await chromium.launch({
+  executablePath: "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+// The page forbids eval, which is how playwright waits for conditions in it.
+const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, bypassCSP: true });
+const page = await context.newPage();
+page.on("pageerror", (error) => report("the page's code has no error", false, error.message));
+const began_ms = Date.now();
+await page.goto(url);
+await check(page, "first picture", async () => {
+  await until(page, () => document.getElementById("camera").dataset.frame !== undefined);
+  return `${Date.now() - began_ms} ms after the address was entered`;
+});
+for (const name of walks) {
+  await WALKS[name](page);
+  await picture(page, name);
+}
+await page.setViewportSize({ width: 390, height: 844 });
+await page.waitForTimeout(1000);
+await picture(page, "phone", { fullPage: true });
+await browser.close();
