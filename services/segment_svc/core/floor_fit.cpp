@@ -17,10 +17,6 @@ constexpr std::array<double, 9> kBands_m = {0.10, 0.10, 0.10, 0.08, 0.05, 0.03, 
 constexpr double kCorrelated = 50.0;
 constexpr double kPriorTilt_rad = 3.0 * kDegree_rad;  // tilt changes less between frames
 
-/// One sigma of the plane's tilt about its worst axis; a plane less sure is not believed. What lies
-/// within the band beside floor (a wall's foot) pulls at a short strip by several times this.
-constexpr double kTiltSigmaMax_rad = 0.025;
-
 /// A plane this near to the mounting's is the floor the mounting was measured on.
 constexpr double kMountedTilt_rad = 5.0 * kDegree_rad;
 constexpr double kMountedHeight_m = 0.05;
@@ -41,35 +37,6 @@ int votes(const FloorPlane& plane, const std::vector<FloorPoint>& points) {
   return votes;
 }
 
-/// Normal equations of a change of the plane's (tilt about two axes, height), each point weighted
-/// by its height's variance.
-struct PlaneEquations {
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();  // the axes' directions along the plane
-  Eigen::Vector3d second = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-};
-
-PlaneEquations equations_of(const FloorPlane& plane, const std::vector<FloorPoint>& points,
-                            double band_m) {
-  PlaneEquations sum;
-  sum.first = plane.normal.unitOrthogonal();
-  sum.second = plane.normal.cross(sum.first);
-  const Eigen::Vector3f first = sum.first.cast<float>();
-  const Eigen::Vector3f second = sum.second.cast<float>();
-  const FloatPlane height_of(plane);
-  const auto band = static_cast<float>(band_m);
-  for (const FloorPoint& point : points) {
-    const auto [height_m, sigma_m] = height_of(point);
-    if (!(std::abs(height_m) <= band + sigma_m)) continue;
-    const double weight = 1.0 / (kCorrelated * (1e-4 + static_cast<double>(sigma_m * sigma_m)));
-    const Eigen::Vector3d jacobian(first.dot(point.p_camera_m), second.dot(point.p_camera_m), 1.0);
-    sum.information.noalias() += (weight * jacobian) * jacobian.transpose();
-    sum.gradient -= (weight * static_cast<double>(height_m)) * jacobian;
-  }
-  return sum;
-}
-
 }  // namespace
 
 FloorFit::FloorFit(const SegmentParams& params)
@@ -80,7 +47,7 @@ FloorFit::FloorFit(const SegmentParams& params)
 
 FloorEstimate FloorFit::fit(const RgbdFrame& frame, const CameraView& view) {
   const FloorPlane mounted = mounted_floor(frame.T_robot_camera);
-  sample_points(frame, view, params_.range_max_m, mounted.normal.cast<float>(), points_);
+  sample_points(frame, view, params_.range_max_m, points_);
   std::optional<FloorEstimate> found = track(mounted, frame.T_robot_camera);
   if (!found) found = start(mounted);
   const bool is_high = found && 10 * beneath_ > found->inliers;
@@ -150,40 +117,39 @@ std::optional<FloorEstimate> FloorFit::settle(const FloorPlane& from, const Floo
   const PlaneSupport support =
       support_of(plane, points_, params_.floor_tolerance_m, params_.drop_off_depth_m);
   beneath_ = support.beneath;
-  if (support.on < params_.floor_inliers_min || !support.is_flat() || !is_allowed(plane, mounted) ||
-      !is_tilt_known(plane)) {
+  if (support.on < params_.floor_inliers_min || !support.is_flat() || !is_allowed(plane, mounted)) {
     return std::nullopt;
   }
   return FloorEstimate{.plane = plane, .inliers = support.on, .trusted = true};
 }
 
-/// One Gauss-Newton step in (tilt about two axes, height). The prior keeps what no point says
-/// anything about.
+/// One Gauss-Newton step in (tilt about two axes, height), points weighted by their height's
+/// variance. The prior keeps what no point says anything about.
 FloorPlane FloorFit::refine(const FloorPlane& start, double band_m) const {
-  PlaneEquations equations = equations_of(start, points_, band_m);
-  Eigen::Matrix3d& information = equations.information;
+  const Eigen::Vector3d first = start.normal.unitOrthogonal();
+  const Eigen::Vector3d second = start.normal.cross(first);
+  const Eigen::Vector3f first_f = first.cast<float>();
+  const Eigen::Vector3f second_f = second.cast<float>();
+  const FloatPlane height_of(start);
+  const auto band = static_cast<float>(band_m);
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  for (const FloorPoint& point : points_) {
+    const auto [height_m, sigma_m] = height_of(point);
+    if (!(std::abs(height_m) <= band + 1.0F * sigma_m)) continue;
+    const double weight = 1.0 / (kCorrelated * (1e-4 + static_cast<double>(sigma_m * sigma_m)));
+    const Eigen::Vector3d jacobian(first_f.dot(point.p_camera_m), second_f.dot(point.p_camera_m),
+                                   1.0);
+    information.noalias() += (weight * jacobian) * jacobian.transpose();
+    gradient -= (weight * static_cast<double>(height_m)) * jacobian;
+  }
   information(0, 0) += 1.0 / (kPriorTilt_rad * kPriorTilt_rad);
   information(1, 1) += 1.0 / (kPriorTilt_rad * kPriorTilt_rad);
   information(2, 2) += 1.0;  // a metre
-  const Eigen::Vector3d step = information.ldlt().solve(equations.gradient);
-  const Eigen::Vector3d normal =
-      start.normal + step[0] * equations.first + step[1] * equations.second;
+  const Eigen::Vector3d step = information.ldlt().solve(gradient);
+  const Eigen::Vector3d normal = start.normal + step[0] * first + step[1] * second;
   const double length = normal.norm();
   return {.normal = normal / length, .height_m = (start.height_m + step[2]) / length};
-}
-
-/// By the points alone, whatever the height: the information's Schur complement on the two tilts.
-bool FloorFit::is_tilt_known(const FloorPlane& plane) const {
-  const Eigen::Matrix3d information =
-      equations_of(plane, points_, params_.floor_tolerance_m).information;
-  if (!(information(2, 2) > 0.0)) return false;
-  const Eigen::Vector2d coupling = information.topRightCorner<2, 1>();
-  const Eigen::Matrix2d of_tilt =
-      information.topLeftCorner<2, 2>() - coupling * coupling.transpose() / information(2, 2);
-  const double half_trace = 0.5 * of_tilt.trace();
-  const double least =
-      half_trace - std::sqrt(std::max(0.0, half_trace * half_trace - of_tilt.determinant()));
-  return least * kTiltSigmaMax_rad * kTiltSigmaMax_rad >= 1.0;
 }
 
 bool FloorFit::is_allowed(const FloorPlane& plane, const FloorPlane& mounted) const {

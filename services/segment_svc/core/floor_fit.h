@@ -25,10 +25,9 @@ struct FloorEstimate {
 /// mounting moved, and of its height at the mounting's tilt, refined by rounds of weighted least
 /// squares over a shrinking band. Where there is no last plane, or it is lost, the mounting's own
 /// plane is tried and then FloorSearch's. A plane is believed if enough points lie on it and crowd
-/// there, they are spread far enough to tell its tilt, it is near the mounting's tilt, and it lies
-/// within the allowed heights: so a wall never becomes the floor, and the strip of floor before a
-/// wall does not tip it. A plane with much beneath it gives way to a lower one (it was a table),
-/// but for the one the mounting says (then what is beneath are stairs).
+/// there, it is near the mounting's tilt, and it lies within the allowed heights: so a wall never
+/// becomes the floor. A plane with much beneath it gives way to a lower one (it was a table), but
+/// for the one the mounting says (then what is beneath are stairs).
 class FloorFit {
  public:
   explicit FloorFit(const SegmentParams& params);
@@ -43,7 +42,6 @@ class FloorFit {
   std::optional<FloorEstimate> find(const FloorPlane& mounted);
   std::optional<FloorEstimate> settle(const FloorPlane& from, const FloorPlane& mounted);
   FloorPlane refine(const FloorPlane& start, double band_m) const;
-  bool is_tilt_known(const FloorPlane& plane) const;
   bool is_allowed(const FloorPlane& plane, const FloorPlane& mounted) const;
 
   SegmentParams params_;

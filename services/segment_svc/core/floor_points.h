@@ -37,11 +37,10 @@ class FloatPlane {
   float height_m_;
 };
 
-/// Readings on a grid of about 107 x 80 points, whatever the image's size; cleared first. Left out
-/// are readings beyond `range_max_m`, and those whose surface rises from the image row below to the
-/// one above by more than 30 degrees, `up` being roughly up: a wall's foot would tip the floor.
+/// Readings on a grid of about 107 x 80 points, whatever the image's size; cleared first. Readings
+/// beyond `range_max_m` are left out.
 void sample_points(const RgbdFrame& frame, const CameraView& view, double range_max_m,
-                   const Eigen::Vector3f& up, std::vector<FloorPoint>& points);
+                   std::vector<FloorPoint>& points);
 
 /// How well a plane explains a set of points.
 struct PlaneSupport {

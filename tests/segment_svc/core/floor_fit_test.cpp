@@ -101,42 +101,6 @@ TEST(FloorFit, KeepsTheFloorWhileAWallFillsTheView) {
   EXPECT_EQ(count(result.labels, kAccessible), 0);
 }
 
-/// Angle between the floor found and the true one, which the mounting knows.
-double tilt_error_rad(const FloorEstimate& floor, const RgbdFrame& frame) {
-  return std::acos(
-      std::min(1.0, floor.plane.normal.dot(mounted_floor(frame.T_robot_camera).normal)));
-}
-
-TEST(FloorFit, WallNearByNeverTipsTheFloor) {
-  for (const double height_m : {0.25, 0.35, 0.6, 1.0}) {
-    for (const double pitch_rad : {0.0, 0.15, 0.3}) {
-      FloorFit followed(SegmentParams{});
-      for (int wall_cm = 250; wall_cm > 50; wall_cm -= 10) {
-        const RgbdFrame frame = render({.boxes = {wall_at(0.01 * wall_cm)}},
-                                       {.width_px = 320,
-                                        .height_px = 240,
-                                        .height_m = height_m,
-                                        .pitch_rad = pitch_rad,
-                                        .noise_quanta = 0.5},
-                                       Pose2{}, static_cast<std::uint32_t>(wall_cm));
-        FloorFit fresh(SegmentParams{});
-        for (FloorFit* fit : {&fresh, &followed}) {
-          const FloorEstimate floor = fit_once(*fit, frame);
-          EXPECT_LE(tilt_error_rad(floor, frame), 0.05)
-              << "camera " << height_m << " m, pitch " << pitch_rad << ", wall " << wall_cm
-              << " cm, trusted " << floor.trusted << ", inliers " << floor.inliers;
-        }
-      }
-    }
-  }
-}
-
-TEST(FloorFit, ShortStripOfFloorIsNotTrusted) {
-  FloorFit fit(SegmentParams{});
-  EXPECT_FALSE(
-      fit_once(fit, render({.boxes = {wall_at(0.85)}}, {.height_m = 0.3}, Pose2{}, 8)).trusted);
-}
-
 TEST(FloorFit, TableTopIsNotTheFloorWhereFloorIsSeenBesideIt) {
   const SyntheticRoom room{
       .boxes = {{.low_m = {0.8, -0.8, 0.70}, .high_m = {2.2, 0.8, 0.75}}, wall_at(4.0)}};
