@@ -29,11 +29,12 @@ inline constexpr std::size_t kRejectReasons = 16;
 
 /// The name a count goes by in messages.
 constexpr std::string_view name_of(RejectReason reason) {
-  constexpr std::array<std::string_view, kRejectReasons> kNames = {
-      "edge_out_of_range",  "edge_near_too_short", "edge_far_too_short",  "edge_on_slope",
-      "chain_too_few_rows", "chain_too_low",       "chain_too_ragged",    "chain_leaning",
-      "chain_on_limb",      "crease_not_straight", "crease_off_scan",     "crease_at_edge",
-      "landmark_unfit",     "landmark_merged",     "landmark_over_budget"};
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"edge_out_of_range", "edge_near_too_short", "edge_far_too_short", "edge_on_slope",
+       "chain_too_few_rows", "chain_too_low", "chain_too_ragged", "chain_leaning", "chain_on_limb",
+       "crease_not_straight", "crease_off_scan", "crease_on_round", "crease_at_edge",
+       "landmark_unfit", "landmark_merged", "landmark_over_budget"});
+  static_assert(kNames.size() == kRejectReasons);
   return kNames[static_cast<std::size_t>(reason)];
 }
 

@@ -5,7 +5,7 @@ import { createRequire } from "node:module";
 
 const [nodeModules, url, folder, ...walks] = process.argv.slice(2);
 const { chromium } = createRequire(`${nodeModules}/`)("playwright-core");
-const PATIENCE_MS = 15_000;
+const PATIENCE_MS = 25_000;
 
 function report(name, ok, detail = "") {
   console.log(JSON.stringify({ name, ok, detail: String(detail) }));
