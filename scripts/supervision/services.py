@@ -36,6 +36,10 @@ def kinect_environment(setup):
     return [f"ROOMWISE_SIM_KINECT={setup.kinect_door}"] if setup.mode == "sim" else []
 
 
+def viewer_arguments(_setup):
+    return ["--logs_path", str(ROOT / "logs")]
+
+
 LIVE = ("sim", "robot")
 ALWAYS = ("sim", "robot", "replay")
 
@@ -49,7 +53,7 @@ SERVICES = (
     Service("ekf_svc", ALWAYS, "ODOMETRY of create_driver, LANDMARKS of landmark_svc"),
     Service("safety_svc", LIVE, "everything above: it stops for what is missing"),
     Service("pilot_svc", LIVE, "POSE of ekf_svc, SEGMENTS of segment_svc, safety_svc"),
-    Service("viewer", ALWAYS, "nothing: it shows what there is"),
+    Service("viewer", ALWAYS, "nothing: it shows what there is", viewer_arguments),
 )
 
 

@@ -158,6 +158,8 @@ async function goal(page) {
 }
 
 async function replay(page) {
+  await check(page, "there are logs to choose from", () =>
+    until(page, () => document.querySelectorAll("#logs option").length > 1));
   const log = await page.locator("#logs option").nth(1).getAttribute("value");
   await page.locator("#logs").selectOption(log);
   await check(page, "the page says REPLAY", () => until(page, () => document.getElementById("mode").textContent === "REPLAY"));
