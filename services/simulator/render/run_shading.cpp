@@ -83,18 +83,44 @@ struct LampRun {
   int count;
 };
 
+/// Light of the lamp at column x of the run, where it is `depth` away from the eye.
+inline float light_at(const LampRun& run, float x, float depth) {
+  const float raw =
+      run.eye_squared + depth * (depth * run.direction_squared(x) - 2.0F * run.along(x));
+  const float squared = raw > 1e-4F ? raw : 1e-4F;
+  return run.height_m / (std::sqrt(squared) * (1.0F + squared));
+}
+
+/// The first lamp, and the light that comes from everywhere.
+ROOMWISE_MULTIVERSION
+void first_lamp(LampRun run, float ambient, const float* depth_m, float* red, float* green,
+                float* blue) {
+  for (int i = 0; i < run.count; ++i) {
+    const float light = light_at(run, static_cast<float>(i), depth_m[i]);
+    red[i] = ambient + run.power[0] * light;
+    green[i] = ambient + run.power[1] * light;
+    blue[i] = ambient + run.power[2] * light;
+  }
+}
+
 ROOMWISE_MULTIVERSION
 void add_lamp(LampRun run, const float* depth_m, float* red, float* green, float* blue) {
   for (int i = 0; i < run.count; ++i) {
-    const auto x = static_cast<float>(i);
-    const float depth = depth_m[i];
-    const float raw =
-        run.eye_squared + depth * (depth * run.direction_squared(x) - 2.0F * run.along(x));
-    const float squared = raw > 1e-4F ? raw : 1e-4F;
-    const float light = run.height_m / (std::sqrt(squared) * (1.0F + squared));
+    const float light = light_at(run, static_cast<float>(i), depth_m[i]);
     red[i] += run.power[0] * light;
     green[i] += run.power[1] * light;
     blue[i] += run.power[2] * light;
+  }
+}
+
+/// Turns light that falls on a surface of one colour into light that comes from it.
+ROOMWISE_MULTIVERSION
+void reflect_plain(const Material& material, int count, float* red, float* green, float* blue) {
+  const auto [r, g, b] = material.color;
+  for (int i = 0; i < count; ++i) {
+    red[i] *= r;
+    green[i] *= g;
+    blue[i] *= b;
   }
 }
 
@@ -172,8 +198,13 @@ void RunShading::find_places(const RayFrame& rays, const Surface& surface, const
   fill(surface.t_gradient, surface.t_at_origin_m, t_.data(), t_width_.data());
 }
 
-void RunShading::add_lamps(const RayFrame& rays, const Surface& surface, const Run& run,
-                           const ViewRow& row) const {
+void RunShading::light(const RayFrame& rays, const Surface& surface, const Run& run,
+                       const ViewRow& row) const {
+  const auto ambient = static_cast<float>(scene_.ambient * scene_.lamp_level);
+  float* const red = row.red + run.begin;
+  float* const green = row.green + run.begin;
+  float* const blue = row.blue + run.begin;
+  bool is_lit = false;
   const double side = eye_height(rays, surface) < 0.0 ? -1.0 : 1.0;
   const Eigen::Vector3d first = rays.direction(run.begin, run.v);
   const auto level = static_cast<float>(scene_.lamp_level);
@@ -189,25 +220,32 @@ void RunShading::add_lamps(const RayFrame& rays, const Surface& surface, const R
         .direction_squared = squared_length(first, rays.step_u),
         .power = {level * lamp.power[0], level * lamp.power[1], level * lamp.power[2]},
         .count = run.end - run.begin};
-    add_lamp(over, depth_m_.data(), row.red + run.begin, row.green + run.begin,
-             row.blue + run.begin);
+    if (is_lit) {
+      add_lamp(over, depth_m_.data(), red, green, blue);
+    } else {
+      first_lamp(over, ambient, depth_m_.data(), red, green, blue);
+    }
+    is_lit = true;
   }
+  if (is_lit) return;
+  for (float* color : {red, green, blue}) std::fill_n(color, run.end - run.begin, ambient);
 }
 
 void RunShading::color(const RayFrame& rays, const Surface& surface, const Run& run,
                        const ViewRow& row) {
   const Material& material = scene_.materials[surface.material];
   const int count = run.end - run.begin;
-  const auto ambient = static_cast<float>(scene_.ambient * scene_.lamp_level);
-  for (float* plane : {row.red, row.green, row.blue}) {
-    std::fill_n(plane + run.begin, count, ambient);
+  float* const red = row.red + run.begin;
+  float* const green = row.green + run.begin;
+  float* const blue = row.blue + run.begin;
+  light(rays, surface, run, row);
+  if (material.pattern == Pattern::kPlain) {
+    return reflect_plain(material, count, red, green, blue);
   }
-  add_lamps(rays, surface, run, row);
-  if (material.pattern != Pattern::kPlain) find_places(rays, surface, run);
+  find_places(rays, surface, run);
   pattern_mix(material.pattern, {s_.data(), t_.data(), s_width_.data(), t_width_.data()}, count,
               mix_.data());
-  reflect(mix_.data(), material, count, row.red + run.begin, row.green + run.begin,
-          row.blue + run.begin);
+  reflect(mix_.data(), material, count, red, green, blue);
 }
 
 void RunShading::nothing(const Run& run, const ViewRow& row) const {

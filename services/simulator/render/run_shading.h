@@ -48,8 +48,8 @@ class RunShading {
 
  private:
   void find_places(const RayFrame& rays, const Surface& surface, const Run& run);
-  void add_lamps(const RayFrame& rays, const Surface& surface, const Run& run,
-                 const ViewRow& row) const;
+  void light(const RayFrame& rays, const Surface& surface, const Run& run,
+             const ViewRow& row) const;
 
   const Scene& scene_;
   std::vector<float> depth_m_, s_, t_, s_width_, t_width_, mix_;  ///< of the run in hand
