@@ -1,5 +1,5 @@
 // Uses the page as a person would, in a real browser, and prints one JSON line for each thing found:
-// {"name", "ok", "detail"}. usage: node walk.mjs NODE_MODULES URL FOLDER WALK...
+// {"walk", "name", "ok", "detail"}. usage: node walk.mjs NODE_MODULES URL FOLDER WALK...
 // FOLDER gets a screenshot at the end of each walk, and whenever something was not as it should be.
 import { createRequire } from "node:module";
 
@@ -7,8 +7,10 @@ const [nodeModules, url, folder, ...walks] = process.argv.slice(2);
 const { chromium } = createRequire(`${nodeModules}/`)("playwright-core");
 const PATIENCE_MS = 25_000;
 
+let walk = "start";
+
 function report(name, ok, detail = "") {
-  console.log(JSON.stringify({ name, ok, detail: String(detail) }));
+  console.log(JSON.stringify({ walk, name, ok, detail: String(detail) }));
 }
 
 /** Waits until `look` returns something true in the page; returns it. */
@@ -157,6 +159,19 @@ async function goal(page) {
     until(page, () => document.getElementById("granted").textContent === "0.00 m/s · 0.00 rad/s"));
 }
 
+/** Opening a log plays it: presses the button until nothing moves any more. */
+async function pause(page) {
+  const state = () => ["play", "position"].map((id) => document.getElementById(id).textContent).join(" ") +
+    document.getElementById("camera").dataset.frame;
+  for (let i = 0; i < 10; ++i) {
+    const before = await page.evaluate(state);
+    await page.waitForTimeout(1000);
+    if ((await page.evaluate(state)) === before && before.startsWith("Play ")) return before;
+    if (before.startsWith("Pause ")) await page.locator("#play").click();
+  }
+  throw new Error(`still ${await page.evaluate(state)}`);
+}
+
 async function replay(page) {
   await check(page, "there are logs to choose from", () =>
     until(page, () => document.querySelectorAll("#logs option").length > 1));
@@ -166,8 +181,7 @@ async function replay(page) {
   await check(page, "driving is off in replay", () => until(page, () => document.body.dataset.control === "false"));
   const frame = () => document.getElementById("camera").dataset.frame;
   await until(page, () => Number(document.getElementById("seek").max) > 1);
-  if ((await text(page, "play")) === "Pause") await page.locator("#play").click();
-  await until(page, () => document.getElementById("play").textContent === "Play");
+  await check(page, "it stands still when paused", () => pause(page));
   const seek = (to) => page.evaluate((value) => {
     const slider = document.getElementById("seek");
     slider.value = String(value);
@@ -210,9 +224,9 @@ await check(page, "first picture", async () => {
   await until(page, () => document.getElementById("camera").dataset.frame !== undefined);
   return `${Date.now() - began_ms} ms after the address was entered`;
 });
-for (const name of walks) {
-  await WALKS[name](page);
-  await picture(page, name);
+for (walk of walks) {
+  await check(page, "it goes through to its end", () => WALKS[walk](page));
+  await picture(page, walk);
 }
 await page.setViewportSize({ width: 390, height: 844 });
 await page.waitForTimeout(1000);
