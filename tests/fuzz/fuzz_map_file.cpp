@@ -1,5 +1,7 @@
 // A saved map of any bytes: refused with a reason, or a map that gives the same bytes again and
 // that a robot can be lost in.
+#include <zlib.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,15 +14,6 @@ namespace {
 using namespace roomwise::ekf;
 using Bytes = std::vector<std::uint8_t>;
 
-std::uint32_t crc32_of(const Bytes& bytes) {
-  std::uint32_t crc = ~0U;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (0xedb88320U & (0U - (crc & 1U)));
-  }
-  return ~crc;
-}
-
 void append(std::uint64_t value, int bytes, Bytes& out) {
   for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::uint8_t>(value >> 8 * i));
 }
@@ -30,7 +23,7 @@ Bytes file_of(std::span<const std::uint8_t> body) {
   Bytes file{'R', 'W', 'M', 'A', 'P', 0, 0, 1};
   append(body.size(), 8, file);
   file.insert(file.end(), body.begin(), body.end());
-  append(crc32_of(file), 4, file);
+  append(::crc32_z(0, file.data(), file.size()), 4, file);
   return file;
 }
 

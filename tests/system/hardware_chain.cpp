@@ -22,15 +22,15 @@ HardwareChain::HardwareChain(std::string scenario, std::vector<std::string> kine
 }
 
 void HardwareChain::start(Part part) {
-  const std::string port = folder_.path() / "create";
   std::vector<std::string> command;
   switch (part) {
     case kSimulator:
-      command = {program("simulator"), "--scenario", scenario_, "--create_port", port,
-                 "--kinect_door",      door()};
+      command = folder_.simulator_options(scenario_);
+      command.insert(command.begin(), program("simulator"));
       break;
     case kCreateDriver:
-      command = {program("create_driver"), "--port", port, "--key_path", folder_.path() / "key"};
+      command = {program("create_driver"), "--port", folder_.create_port(), "--key_path",
+                 folder_.key()};
       break;
     case kKinectPub:
       command = {program("kinect_pub")};

@@ -10,7 +10,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/channels.h"
 #include "tests/support/child_process.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/robot_folder.h"
 
 namespace roomwise {
 
@@ -40,15 +40,15 @@ class HardwareChain {
   void forget();
 
   /// Where the simulated camera's frames come out.
-  std::filesystem::path door() const { return folder_.path() / "kinect"; }
+  std::filesystem::path door() const { return folder_.kinect_door(); }
   /// All that the processes running now have said.
   std::string output() const;
 
  private:
   void command(LcmBus& bus);
 
-  ScratchFolder folder_;
-  SecretKey key_ = make_key_file(folder_.path() / "key");
+  RobotFolder folder_;
+  SecretKey key_ = make_key_file(folder_.key());
   std::string scenario_;
   std::vector<std::string> kinect_options_;
   std::int64_t sequence_ = 0;

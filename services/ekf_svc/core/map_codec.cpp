@@ -1,5 +1,7 @@
 #include "services/ekf_svc/core/map_codec.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,21 +18,8 @@ constexpr std::size_t kLandmarkBytes = 8 + 4 + 1 + 4 + 5 * 8;
 constexpr std::size_t kLandmarksMax = 8000;
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::array<std::uint32_t, 256> crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t n = 0; n < 256; ++n) {
-    std::uint32_t c = n;
-    for (int bit = 0; bit < 8; ++bit) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1) : c >> 1;
-    table[n] = c;
-  }
-  return table;
-}
-
-std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
-  static constexpr auto kTable = crc_table();
-  std::uint32_t c = 0xFFFFFFFFU;
-  for (const std::uint8_t byte : bytes) c = kTable[(c ^ byte) & 0xFFU] ^ (c >> 8);
-  return c ^ 0xFFFFFFFFU;
+std::uint32_t crc32_of(std::span<const std::uint8_t> bytes) {
+  return static_cast<std::uint32_t>(::crc32_z(0, bytes.data(), bytes.size()));
 }
 
 std::size_t covariance_count(std::size_t landmarks) { return landmarks * (2 * landmarks + 1); }
@@ -147,7 +136,7 @@ std::vector<std::uint8_t> encode_map(const MapSnapshot& map) {
     landmark_fields(writer, landmark, p_m, [](Writer& to, const auto& value) { to.put(value); });
   }
   for (const double value : map.covariance_m2) writer.put(value);
-  writer.put(crc32(bytes));
+  writer.put(crc32_of(bytes));
   return bytes;
 }
 
@@ -180,7 +169,7 @@ MapVerdict decode_map(std::span<const std::uint8_t> bytes, MapSnapshot& map) {
   if (body != bytes.size() - kHeaderBytes - sizeof(std::uint32_t)) return MapVerdict::kTruncated;
   const auto covered = bytes.first(bytes.size() - sizeof(std::uint32_t));
   Reader tail(bytes.subspan(covered.size()));
-  if (tail.get<std::uint32_t>() != crc32(covered)) return MapVerdict::kChecksum;
+  if (tail.get<std::uint32_t>() != crc32_of(covered)) return MapVerdict::kChecksum;
   if (count > kLandmarksMax) return MapVerdict::kNumbersInvalid;
   if (body != kFixedBytes + count * kLandmarkBytes + covariance_count(count) * sizeof(double)) {
     return MapVerdict::kTruncated;

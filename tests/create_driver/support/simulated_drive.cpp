@@ -7,7 +7,7 @@
 #include "common/bus/lcm_bus.h"
 #include "tests/support/child_process.h"
 #include "tests/support/drive_command.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/robot_folder.h"
 #include "tests/system/live_service.h"
 
 namespace roomwise {
@@ -102,19 +102,16 @@ double SimulatedDrive::ends_moving_m() const {
 }
 
 SimulatedDrive drive_in_simulator(const DriveSetup& setup) {
-  const ScratchFolder folder;
-  const std::string port = folder.path() / "create";
-  const std::string key_path = folder.path() / "key";
-  const SecretKey key = make_key_file(key_path);
+  const RobotFolder folder;
+  const SecretKey key = make_key_file(folder.key());
   const std::string params = folder.path() / "params.toml";
-  std::ofstream(params) << "port = \"" << port << "\"\nkey_path = \"" << key_path << "\"\n"
+  std::ofstream(params) << "port = \"" << folder.create_port() << "\"\nkey_path = \""
+                        << folder.key() << "\"\n"
                         << setup.driver_params;
   SimulatedDrive drive;
-  ChildProcess simulator(
-      std::vector<std::string>{program("simulator"), "--url", setup.url, "--scenario", "empty",
-                               "--create_port", port, "--kinect_door", folder.path() / "kinect"} +
-          setup.simulator_arguments,
-      folder.path() / "simulator-output");
+  ChildProcess simulator(std::vector<std::string>{program("simulator"), "--url", setup.url} +
+                             folder.simulator_options("empty") + setup.simulator_arguments,
+                         folder.path() / "simulator-output");
   ChildProcess driver({program("create_driver"), "--url", setup.url, "--params", params},
                       folder.path() / "driver-output");
   Listener(setup, key, drive).listen();

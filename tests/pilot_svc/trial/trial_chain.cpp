@@ -1,31 +1,21 @@
 #include "tests/pilot_svc/trial/trial_chain.h"
 
 #include <cstdlib>
-#include <fstream>
 
 #include "tests/support/build_paths.h"
 
 namespace roomwise {
 
 TrialChain::TrialChain(const TrialSetup& setup) : setup_(setup) {
-  const std::string port = folder_.path() / "create";
-  const std::string key = folder_.path() / "key";
-  const std::string door = folder_.path() / "kinect";
-  std::string scenario = setup.scenario;
-  if (scenario.find('\n') != std::string::npos) {
-    scenario = folder_.path() / "world.toml";
-    std::ofstream(scenario) << setup.scenario;
-  }
   // OpenNI2's drivers take no arguments: the door comes by the environment.
-  ::setenv("ROOMWISE_SIM_KINECT", door.c_str(), 1);
+  ::setenv("ROOMWISE_SIM_KINECT", folder_.kinect_door().c_str(), 1);
   if (!setup.log.empty()) start_logger();
-  std::vector<std::string> world = {
-      "--scenario",    scenario, "--seed",        std::to_string(setup.seed),
-      "--create_port", port,     "--kinect_door", door};
+  std::vector<std::string> world = folder_.simulator_options(setup.scenario);
+  world.insert(world.end(), {"--seed", std::to_string(setup.seed)});
   world.insert(world.end(), setup.simulator.begin(), setup.simulator.end());
   start("simulator", world);
-  start("safety_svc", {"--key_path", key});
-  start("create_driver", {"--port", port, "--key_path", key});
+  start("safety_svc", {"--key_path", folder_.key()});
+  start("create_driver", {"--port", folder_.create_port(), "--key_path", folder_.key()});
   start("landmark_svc", {});
   start("segment_svc", {});
   start("ekf_svc", {});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/support/child_process.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/robot_folder.h"
 
 namespace roomwise {
 
@@ -40,7 +40,7 @@ class TrialChain {
   void start_logger();
 
   TrialSetup setup_;
-  ScratchFolder folder_;
+  RobotFolder folder_;
   std::vector<Part> parts_;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 
 #include "tests/support/build_paths.h"
 
@@ -21,25 +20,17 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
 }  // namespace
 
 SafetyChain::SafetyChain(const ChainSetup& setup) : setup_(setup) {
-  const std::string port = folder_.path() / "create";
-  const std::string key = folder_.path() / "key";
-  const std::string door = folder_.path() / "kinect";
-  std::string scenario = setup.scenario;
-  if (scenario.find('\n') != std::string::npos) {
-    scenario = folder_.path() / "world.toml";
-    std::ofstream(scenario) << setup.scenario;
-  }
-  start(kSimulator, std::vector<std::string>{program("simulator"), "--scenario", scenario,
-                                             "--create_port", port, "--kinect_door", door} +
-                        setup.simulator);
-  start(kSafetySvc,
-        std::vector<std::string>{program("safety_svc"), "--key_path", key} + setup.safety);
-  start(kCreateDriver, {program("create_driver"), "--port", port, "--key_path", key});
+  start(kSimulator, std::vector<std::string>{program("simulator")} +
+                        folder_.simulator_options(setup.scenario) + setup.simulator);
+  start(kSafetySvc, std::vector<std::string>{program("safety_svc"), "--key_path", folder_.key()} +
+                        setup.safety);
+  start(kCreateDriver,
+        {program("create_driver"), "--port", folder_.create_port(), "--key_path", folder_.key()});
   start(kSegmentSvc, {program("segment_svc")});
   // OpenNI2's drivers take no arguments: the door comes by the environment.
-  start(kKinectPub,
-        {"env", "ROOMWISE_SIM_KINECT=" + door, program("kinect_pub"), "--resolution", "320x240",
-         "--use_color", "false", "--camera_height_m", "0.4", "--camera_pitch_rad", "0.1"});
+  start(kKinectPub, {"env", "ROOMWISE_SIM_KINECT=" + folder_.kinect_door(), program("kinect_pub"),
+                     "--resolution", "320x240", "--use_color", "false", "--camera_height_m", "0.4",
+                     "--camera_pitch_rad", "0.1"});
 }
 
 void SafetyChain::start(Part part, std::vector<std::string> command) {

@@ -8,7 +8,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/channels.h"
 #include "tests/support/child_process.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/robot_folder.h"
 
 namespace roomwise {
 
@@ -64,7 +64,7 @@ class SafetyChain {
   void ask(LcmBus& bus);
 
   ChainSetup setup_;
-  ScratchFolder folder_;
+  RobotFolder folder_;
   std::unique_ptr<ChildProcess> processes_[kParts];
   int turns_ = 0;
   double longest_stall_s_ = 0.0;
