@@ -25,6 +25,9 @@ struct EkfParams {
 
   double range_bias_m = 0.015;   ///< repeats from frame to frame; added to every range noise
   double lateral_bias_m = 0.01;  ///< the same across the line of sight
+  /// A range farther off than this pulls no harder for it; 0: as hard as it is far off. 1 is the
+  /// best guard if one range in seven is anything but Gaussian.
+  double range_outlier_sigmas = 1.0;
 
   /// Where a landmark that is there is sure to be seen if nothing hides it.
   double view_half_angle_rad = 0.42;
@@ -56,6 +59,7 @@ struct EkfParams {
     field("gap_turn_sigma_radps", gap_turn_sigma_radps, 0.0, 10.0);
     field("range_bias_m", range_bias_m, 0.0, 1.0);
     field("lateral_bias_m", lateral_bias_m, 0.0, 1.0);
+    field("range_outlier_sigmas", range_outlier_sigmas, 0.0, 100.0);
     field("view_half_angle_rad", view_half_angle_rad, 0.0, 3.2);
     field("view_range_min_m", view_range_min_m, 0.0, 100.0);
     field("view_range_max_m", view_range_max_m, 0.0, 100.0);

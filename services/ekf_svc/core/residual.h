@@ -17,6 +17,9 @@ struct JacobianBlock {
 struct Residual {
   Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
   Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();    ///< its covariance
+  /// Added to the noise for the correction alone: so much less it is to pull. What is said of the
+  /// normalised innovation does not count it.
+  Eigen::Matrix2d softening = Eigen::Matrix2d::Zero();
   Eigen::Vector2d heading = Eigen::Vector2d::Zero();  ///< column of H for the heading
   std::array<JacobianBlock, 2> points;
 };

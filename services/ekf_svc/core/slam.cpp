@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/ekf_svc/core/range_outliers.h"
 #include "services/ekf_svc/core/signature.h"
 
 namespace roomwise::ekf {
@@ -176,7 +177,12 @@ void Slam::update(std::span<const Sighting> sightings, std::span<Verdict> verdic
 void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
   residuals_.clear();
   for (const std::size_t i : batch_) {
-    residuals_.push_back(filter_.observation_residual(candidates_[i].landmark, body(sightings[i])));
+    const BodyObservation seen = body(sightings[i]);
+    Residual residual = filter_.observation_residual(candidates_[i].landmark, seen);
+    residual.softening =
+        range_softening(residual, seen.p_robot_m, filter_.innovation_covariance(residual),
+                        params_.range_outlier_sigmas);
+    residuals_.push_back(residual);
   }
   const bool used = filter_.update(residuals_) == UpdateResult::kUsed;
   if (used && !batch_.empty()) noise_monitor_.record(filter_.last_innovation());

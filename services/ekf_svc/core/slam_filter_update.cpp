@@ -46,7 +46,32 @@ SparseJacobian sparse(const Residual& residual) {
 
 bool residual_is_finite(const Residual& residual) {
   return residual.innovation.allFinite() && residual.noise.allFinite() &&
-         residual.heading.allFinite();
+         residual.softening.allFinite() && residual.heading.allFinite();
+}
+
+bool is_softened(const Residual& residual) { return !residual.softening.isZero(0.0); }
+
+/// To the lower triangle of S.
+template <class Matrix>
+void add_softening(std::span<const Residual> residuals, Matrix& S) {
+  for (std::size_t a = 0; a < residuals.size(); ++a) {
+    const Eigen::Matrix2d& softening = residuals[a].softening;
+    S[2 * a][2 * a] += softening(0, 0);
+    S[2 * a + 1][2 * a] += softening(1, 0);
+    S[2 * a + 1][2 * a + 1] += softening(1, 1);
+  }
+}
+
+/// |L^-1 innovation|^2.
+template <class Matrix, class Vector>
+double normalised_squared(const Matrix& L, Vector innovation, std::size_t dimension) {
+  double squared = 0.0;
+  for (std::size_t k = 0; k < dimension; ++k) {
+    for (std::size_t l = 0; l < k; ++l) innovation[k] -= L[k][l] * innovation[l];
+    innovation[k] /= L[k][k];
+    squared += innovation[k] * innovation[k];
+  }
+  return squared;
 }
 
 }  // namespace
@@ -102,11 +127,14 @@ UpdateResult SlamFilter::update(std::span<const Residual> residuals) {
   }
   fill_innovation_covariance(residuals, S);
   if (!cholesky(S, dimension)) return UpdateResult::kSingular;
+  const double squared = normalised_squared(S, innovation, dimension);
+  if (std::any_of(residuals.begin(), residuals.end(), is_softened)) {
+    fill_innovation_covariance(residuals, S);
+    add_softening(residuals, S);
+    if (!cholesky(S, dimension)) return UpdateResult::kSingular;
+  }
   whiten(dimension, S, innovation.data());
   correct(dimension, innovation.data());
-
-  double squared = 0.0;
-  for (std::size_t k = 0; k < dimension; ++k) squared += innovation[k] * innovation[k];
   last_innovation_ = {squared, static_cast<int>(dimension)};
   return UpdateResult::kUsed;
 }

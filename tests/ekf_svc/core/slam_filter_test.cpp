@@ -259,6 +259,23 @@ TEST(SlamFilter, UnusableResidualsLeaveItUntouched) {
   EXPECT_EQ(covariance_of(filter), P);
 }
 
+TEST(SlamFilter, SofteningIsNoiseForTheCorrectionAndNothingForTheStatistics) {
+  SlamFilter softened = driven(ErrorForm::kInvariant, 100);
+  SlamFilter noisier = driven(ErrorForm::kInvariant, 100);
+  SlamFilter plain = driven(ErrorForm::kInvariant, 100);
+  Residual residual = softened.observation_residual(0, {{1.0, 0.3}, Eigen::Matrix2d::Identity()});
+  ASSERT_EQ(plain.update({&residual, 1}), UpdateResult::kUsed);
+  residual.softening << 2.0, 0.5, 0.5, 1.0;
+  ASSERT_EQ(softened.update({&residual, 1}), UpdateResult::kUsed);
+  residual.noise += residual.softening;
+  residual.softening.setZero();
+  ASSERT_EQ(noisier.update({&residual, 1}), UpdateResult::kUsed);
+  EXPECT_LT((state_of(softened) - state_of(noisier)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((covariance_of(softened) - covariance_of(noisier)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_DOUBLE_EQ(softened.last_innovation().squared, plain.last_innovation().squared);
+  EXPECT_GT(softened.last_innovation().squared, noisier.last_innovation().squared);
+}
+
 TEST(SlamFilter, WideningThePoseLeavesTheMapAlone) {
   SlamFilter filter = driven(ErrorForm::kInvariant, 100);
   const Eigen::VectorXd x = state_of(filter);
