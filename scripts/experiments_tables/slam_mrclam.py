@@ -2,26 +2,21 @@
 set, the best batch estimate, and MRPT's kf-slam on the same log (the better of four settings by
 trajectory) where it is installed (scripts/setup --peers).
 
-Errors are taken where landmarks were just seen: MRPT tells no pose in between. The folder is
-ROOMWISE_DATA/mrclam7, by default ../shared/data/mrclam7.
+Errors are taken where landmarks were just seen: MRPT tells no pose in between.
 """
-import os
 import pathlib
 import subprocess
 import tempfile
 
+from recordings import mrclam
+
 TITLE = "SLAM: MRCLAM set 7, one parameter set"
 TARGETS = ["ekf_svc", "rwlog"]
 OPTIONAL_TARGETS = ["mrpt_slam"]
-ROBOTS = (2, 5)
 WHAT = ("ate_aligned_at_sightings_m", "heading_rmse_at_sightings_rad", "map_aligned_m",
         "ate_aligned_m", "heading_rmse_rad")
 MRPT_SETTINGS = [("0.1", "0.03"), ("0.1", "0.06"), ("0.2", "0.03"), ("0.2", "0.06")]
 HINDSIGHT_RATIO_MAX = 1.6
-
-
-def run_quietly(*command):
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def score(rwlog, log):
@@ -30,43 +25,37 @@ def score(rwlog, log):
     return [float(values.get(what, "nan")) for what in WHAT]
 
 
-def mrpt(bin_folder, log, out):
+def best_of_mrpt(bin_folder, log, out):
     """Scores of MRPT with the settings that bring the best trajectory."""
     scores = []
     for range_m, bearing_rad in MRPT_SETTINGS:
-        run_quietly(bin_folder / "mrpt_slam", "--replay", log, "--record", out,
-                    "--range_sigma_m", range_m, "--bearing_sigma_rad", bearing_rad)
+        mrclam.run_quietly(bin_folder / "mrpt_slam", "--replay", log, "--record", out,
+                           "--range_sigma_m", range_m, "--bearing_sigma_rad", bearing_rad)
         scores.append(score(bin_folder / "rwlog", out))
     return min(scores)
 
 
 def rows_of(bin_folder, folder, data, robot, identities):
     log, out, best = (pathlib.Path(folder) / name for name in ("run", "out", "best"))
-    extra = ["--unknown-identities"] if identities == "unknown" else []
-    run_quietly(bin_folder / "rwlog", "import", "mrclam", data, "--robot", str(robot), "-o", log,
-                *extra)
-    run_quietly(bin_folder / "ekf_svc", "--replay", log, "--record", out)
+    mrclam.mapped_run(bin_folder, data, robot, log, out, identities == "unknown")
     rows = {"ekf_svc": score(bin_folder / "rwlog", out)}
     if identities == "known":
-        run_quietly(bin_folder / "rwlog", "smooth", out, "-o", best)
+        mrclam.run_quietly(bin_folder / "rwlog", "smooth", out, "-o", best)
         rows["in hindsight"] = score(bin_folder / "rwlog", best)
     if (bin_folder / "mrpt_slam").exists():
-        rows["MRPT"] = mrpt(bin_folder, log, out)
+        rows["MRPT"] = best_of_mrpt(bin_folder, log, out)
     return rows
 
 
 def run(bin_folder):
-    root = pathlib.Path(__file__).resolve().parents[2]
-    shared = pathlib.Path(os.environ.get("ROOMWISE_DATA", root.parent / "shared" / "data"))
-    data = shared / "mrclam7"
-    if not data.is_dir():
-        print(f"skipped: no {data}")
+    data = mrclam.folder()
+    if data is None:
         return True
     print(f"{'robot, identities, estimate':32} {'path m':>8} {'heading rad':>12} {'map m':>8}"
           f" {'path m, all':>12} {'heading, all':>13}")
     met = True
     with tempfile.TemporaryDirectory() as folder:
-        for robot in ROBOTS:
+        for robot in mrclam.ROBOTS:
             for identities in ("known", "unknown"):
                 rows = rows_of(bin_folder, folder, data, robot, identities)
                 for what, values in rows.items():
