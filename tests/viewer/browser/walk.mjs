@@ -209,21 +209,37 @@ async function replay(page) {
   await check(page, "and it is live again", () => until(page, () => document.getElementById("mode").textContent === "LIVE"));
 }
 
-const WALKS = { look, drive, stick, train, goal, replay };
 const browser = await chromium.launch({
   executablePath: "/usr/bin/chromium",
   args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 });
 // The page forbids eval, which is how playwright waits for conditions in it.
-const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, bypassCSP: true });
+const fresh = () => browser.newContext({ viewport: { width: 1280, height: 720 }, bypassCSP: true });
+
+/** From entering the address, with nothing in the browser's cache, to a picture [ms]. */
+async function firstPicture_ms(page) {
+  await page.goto(url);
+  return until(page, () => performance.getEntriesByName("first picture")[0]?.startTime);
+}
+
+async function first(page) {
+  await page.goto("about:blank");
+  const times_ms = [];
+  for (let i = 0; i < 9; ++i) {
+    const context = await fresh();
+    times_ms.push(Math.round(await firstPicture_ms(await context.newPage())));
+    await context.close();
+  }
+  const sorted = times_ms.toSorted((a, b) => a - b);
+  report("first picture in nine fresh browsers", true, `median ${sorted[4]} ms of ${times_ms.join(", ")}`);
+  await page.goto(url);
+}
+
+const WALKS = { drive, look, first, stick, train, goal, replay };
+const context = await fresh();
 const page = await context.newPage();
 page.on("pageerror", (error) => report("the page's code has no error", false, error.message));
-const began_ms = Date.now();
-await page.goto(url);
-await check(page, "first picture", async () => {
-  await until(page, () => document.getElementById("camera").dataset.frame !== undefined);
-  return `${Date.now() - began_ms} ms after the address was entered`;
-});
+await check(page, "first picture", async () => `${Math.round(await firstPicture_ms(page))} ms`);
 for (walk of walks) {
   await check(page, "it goes through to its end", () => WALKS[walk](page));
   await picture(page, walk);

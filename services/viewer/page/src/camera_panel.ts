@@ -2,7 +2,7 @@
 import { decompress } from "fzstd";
 import { kindColor, LABEL_COLORS, pixelsOf, rgba } from "./colors";
 import type { Connection } from "./connection";
-import { context2d, element, say } from "./dom";
+import { context2d, element, IN_MEMORY, say } from "./dom";
 import type { Frame, Frames } from "./frames";
 import { landmark_list_t, segment_training_t, segmentation_t, type training_rectangle_t } from "./messages";
 
@@ -22,10 +22,10 @@ interface Rectangle {
 
 export class CameraPanel {
   private readonly canvas = element<HTMLCanvasElement>("camera");
-  private readonly context = context2d(this.canvas);
+  private readonly context = context2d(this.canvas, IN_MEMORY);
   private landmarks: landmark_list_t | null = null;
   private segments: segmentation_t | null = null;
-  private readonly labels = context2d(document.createElement("canvas"));
+  private readonly labels = context2d(document.createElement("canvas"), IN_MEMORY);
   private rectangles: Rectangle[] = [];
   private start: { u: number; v: number } | null = null;
   private frame_utime = 0n;

@@ -2,7 +2,7 @@
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Connection } from "./connection";
-import { context2d, element } from "./dom";
+import { context2d, element, IN_MEMORY } from "./dom";
 import type { Frame, Frames } from "./frames";
 
 const WITHOUT_COLOR = [190, 196, 206];
@@ -19,7 +19,7 @@ export class CloudPanel {
   private readonly geometry = new three.BufferGeometry();
   private readonly positions = new Float32Array(3 * MOST_POINTS);
   private readonly colors = new Uint8Array(3 * MOST_POINTS);
-  private readonly picture = context2d(document.createElement("canvas"), { willReadFrequently: true });
+  private readonly picture = context2d(document.createElement("canvas"), IN_MEMORY);
   private due_ms = 0;
 
   constructor(connection: Connection, frames: Frames) {

@@ -1,7 +1,7 @@
 /** Depth in false colour, its histogram, and the range that landmark_svc takes from it. */
 import { falseColor, pixelsOf, rgba } from "./colors";
 import type { Connection } from "./connection";
-import { context2d, element, fitToScreen, say } from "./dom";
+import { context2d, element, fitToScreen, IN_MEMORY, say } from "./dom";
 import type { Frame, Frames } from "./frames";
 import { landmark_list_t } from "./messages";
 
@@ -13,7 +13,7 @@ const NO_DEPTH = rgba(0, 0, 0);
 
 export class DepthPanel {
   private readonly canvas = element<HTMLCanvasElement>("depth");
-  private readonly context = context2d(this.canvas);
+  private readonly context = context2d(this.canvas, IN_MEMORY);
   private readonly chart = element<HTMLCanvasElement>("histogram");
   private readonly chartContext = context2d(this.chart);
   private range_m: [number, number] | null = null;

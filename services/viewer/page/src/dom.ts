@@ -5,6 +5,10 @@ export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   return found as T;
 }
 
+/** A canvas of camera pixels changes all over many times a second: kept in the processor's memory it
+ * is ready at once, and costs no more than the copy to the screen. */
+export const IN_MEMORY = { willReadFrequently: true };
+
 export function context2d(
   canvas: HTMLCanvasElement,
   settings?: CanvasRenderingContext2DSettings,

@@ -1,7 +1,7 @@
 /** Driving by hand, the emergency stop and the pilot's behaviours. */
+import { sendBehaviour } from "./behaviour";
 import type { Connection } from "./connection";
 import { element } from "./dom";
-import { sendBehaviour } from "./map_panel";
 import { estop_t, safety_reset_t, safety_state_t, velocity_request_t } from "./messages";
 
 const REPEAT_MS = 100;

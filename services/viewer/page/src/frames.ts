@@ -3,13 +3,23 @@ import type { Connection } from "./connection";
 import { kinect_frame_t } from "./messages";
 import { decodePdz16 } from "./pdz16";
 
-export interface Frame {
-  message: kinect_frame_t;
-  depth: Uint16Array;
-  /** Null where the camera gives no colour. */
-  color: ImageBitmap | null;
+export class Frame {
+  private decoded?: Uint16Array;
+
+  constructor(
+    readonly message: kinect_frame_t,
+    /** Null where the camera gives no colour. */
+    readonly color: ImageBitmap | null,
+  ) {}
+
+  /** Decoded when first asked for. Throws RangeError if it is none. */
+  get depth(): Uint16Array {
+    return (this.decoded ??= depthOf(this.message));
+  }
 }
 
+/** The mark by which a browser's tools tell how long a person waits. */
+const FIRST_PICTURE = "first picture";
 const LONGEST_SIDE_PX = 4096;
 /** Decoding and drawing is the dearest thing the page does; the eye is content with this. */
 const SHORTEST_PAUSE_MS = 40;
@@ -44,7 +54,9 @@ export class Frames {
   private waiting: kinect_frame_t | null = null;
   private busy = false;
   private handlers: ((frame: Frame) => void)[] = [];
-  private shown: (() => void)[] = [];
+  private tellShown!: () => void;
+  /** The first frame is on the screen. */
+  readonly firstShown = new Promise<void>((resolve) => (this.tellShown = resolve));
 
   constructor(connection: Connection) {
     connection.on("KINECT_FRAME", kinect_frame_t, (message) => {
@@ -57,9 +69,9 @@ export class Frames {
     this.handlers.push(handle);
   }
 
-  /** Calls back once, after the first frame was shown. */
-  onceShown(handle: () => void): void {
-    this.shown.push(handle);
+  private tellOfFirst(): void {
+    performance.mark(FIRST_PICTURE);
+    requestAnimationFrame(() => setTimeout(this.tellShown));
   }
 
   private async decodeNext(): Promise<void> {
@@ -69,10 +81,10 @@ export class Frames {
     this.waiting = null;
     const began_ms = performance.now();
     try {
-      const frame = { message, depth: depthOf(message), color: await colorOf(message).catch(() => null) };
+      const frame = new Frame(message, await colorOf(message).catch(() => null));
       this.handlers.forEach((handle) => handle(frame));
       frame.color?.close();
-      this.shown.splice(0).forEach((handle) => requestAnimationFrame(() => setTimeout(handle)));
+      if (performance.getEntriesByName(FIRST_PICTURE).length === 0) this.tellOfFirst();
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
     } finally {

@@ -1,33 +1,32 @@
-/** The page: one connection, and the panels that look at it. */
+/** The page: one connection, and the panels that look at it. First what stops the robot and the
+ * colour picture; the instruments, which take longer to load, when that is shown. */
 import { CameraPanel } from "./camera_panel";
 import { Connection } from "./connection";
-import { DepthPanel } from "./depth_panel";
 import { Drive } from "./drive";
 import { Frames } from "./frames";
-import { MapPanel } from "./map_panel";
-import { Plots } from "./plots";
-import { Poses } from "./poses";
 import { ReplayBar } from "./replay_bar";
 import { StatePanels } from "./state_panels";
 
+/** The instruments wait no longer than this for a camera that may not be there. */
+const LONGEST_WAIT_MS = 700;
+
 const connection = new Connection();
-new ReplayBar(connection);
+connection.open();
 new Drive(connection);
 new StatePanels(connection);
-const poses = new Poses(connection);
-new MapPanel(connection, poses);
-new Plots(connection, poses);
+new ReplayBar(connection);
 const frames = new Frames(connection);
 new CameraPanel(connection, frames);
-new DepthPanel(connection, frames);
-connection.open();
 
-/** Its library is larger than all the rest, and starting WebGL takes long: first a picture. */
-frames.onceShown(async () => {
-  try {
-    const { CloudPanel } = await import("./cloud_panel");
-    new CloudPanel(connection, frames);
-  } catch {
-    document.body.dataset.webgl = "none"; // the rest of the page does without
-  }
-});
+await Promise.race([frames.firstShown, new Promise((resolve) => setTimeout(resolve, LONGEST_WAIT_MS))]);
+const { openInstruments } = await import("./instruments");
+openInstruments(connection, frames);
+
+/** Its library is larger than all the rest, and starting WebGL takes long. */
+await frames.firstShown;
+try {
+  const { CloudPanel } = await import("./cloud_panel");
+  new CloudPanel(connection, frames);
+} catch {
+  document.body.dataset.webgl = "none"; // the rest of the page does without
+}

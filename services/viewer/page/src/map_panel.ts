@@ -1,4 +1,5 @@
 /** The map from above: landmarks with their 95 % ellipses, paths, the robot and its free range. */
+import { sendBehaviour } from "./behaviour";
 import { kindColor, PATH_COLORS } from "./colors";
 import type { Connection } from "./connection";
 import { context2d, element, fitToScreen, say } from "./dom";
@@ -163,21 +164,4 @@ export class MapPanel {
       goal_y_m: this.center.y - down_px / this.scale,
     });
   }
-}
-
-export function sendBehaviour(connection: Connection, behaviour: number, more: Partial<pilot_goal_t> = {}): void {
-  connection.send("PILOT_GOAL", pilot_goal_t, {
-    utime: 0n,
-    seq: 0n,
-    source: "viewer",
-    behaviour,
-    goal_speed_mps: 0,
-    goal_duration_s: 0,
-    goal_x_m: 0,
-    goal_y_m: 0,
-    circle_distance_m: 0.4,
-    circle_sense: 1,
-    circle_rounds_ratio: 1,
-    ...more,
-  });
 }
