@@ -16,7 +16,7 @@ struct JacobianBlock {
 /// with H non-zero for the heading and for two points of the state only.
 struct Residual {
   Eigen::Vector2d innovation = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();    ///< its covariance
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();  ///< its covariance
   /// Added to the noise for the correction alone: so much less it is to pull. What is said of the
   /// normalised innovation does not count it.
   Eigen::Matrix2d softening = Eigen::Matrix2d::Zero();

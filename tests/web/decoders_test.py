@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""The page's generated decoders, bundled as the page has them, against the golden bytes."""
+"""The page's decoders, bundled as the page has them, against the bytes of the programs.
+
+usage: decoders_test.py FOLDER DEPTH_IMAGES     FOLDER keeps what npm fetched; DEPTH_IMAGES writes images
+"""
 import os
 import pathlib
 import shutil
@@ -14,7 +17,6 @@ PAGE = ROOT / "services" / "viewer" / "page"
 
 def installed(build):
     """esbuild as package-lock.json pins it, in the build folder; fetched once for each lock."""
-    build.mkdir(parents=True, exist_ok=True)
     lock = (PAGE / "package-lock.json").read_bytes()
     stamp = build / "installed-lock.json"
     if not stamp.is_file() or stamp.read_bytes() != lock:
@@ -25,27 +27,30 @@ def installed(build):
     return build / "node_modules" / ".bin" / "esbuild"
 
 
-def bundled(build):
-    esbuild = installed(build)
+def bundled(build, module):
     sources = build / "src"
-    sources.mkdir(exist_ok=True)
-    shutil.copyfile(PAGE / "src" / "wire.ts", sources / "wire.ts")
+    shutil.copytree(PAGE / "src", sources, dirs_exist_ok=True)
     types = sorted((ROOT / "lcmtypes").glob("*.lcm"))
     subprocess.run([PAGE / "generate_messages", sources / "messages.ts", *types], check=True)
-    bundle = build / "messages.mjs"
-    subprocess.run([esbuild, sources / "messages.ts", "--bundle", "--format=esm",
+    bundle = build / f"{module}.mjs"
+    subprocess.run([installed(build), sources / f"{module}.ts", "--bundle", "--format=esm",
                     "--log-level=warning", f"--outfile={bundle}"], check=True)
     return bundle
 
 
-def main(build):
+def main(build, depth_images):
     for program in ("node", "npm"):
         if not shutil.which(program):
             print(f"skipped: no {program}; scripts/setup installs it")
             return SKIPPED
-    environment = dict(os.environ, ROOMWISE_MESSAGES=str(bundled(build)))
-    return subprocess.run(["node", "--test", HERE / "messages_test.mjs"], env=environment).returncode
+    images = build / "depth_images"
+    build.mkdir(parents=True, exist_ok=True)
+    images.write_bytes(subprocess.run([depth_images], check=True, capture_output=True).stdout)
+    environment = dict(os.environ, ROOMWISE_MESSAGES=str(bundled(build, "messages")),
+                       ROOMWISE_PDZ16=str(bundled(build, "pdz16")), ROOMWISE_DEPTH_IMAGES=str(images))
+    tests = [HERE / "messages_test.mjs", HERE / "depth_images_test.mjs"]
+    return subprocess.run(["node", "--test", *tests], env=environment).returncode
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()))
