@@ -1,13 +1,19 @@
 """scripts/start and scripts/replay with the real programs, in a private network."""
+import csv
+import math
 import pathlib
 import random
 import signal
+import struct
 import subprocess
 import sys
+import threading
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "viewer")]
 import private_network  # noqa: E402: found by the line above
+from raw_page import RawPage, frame
 from started_run import PROGRAMS, ROOT, StartedRun  # noqa: E402
 
 from supervision.control import Control  # noqa: E402
@@ -16,6 +22,44 @@ URL = "udpm://239.255.76.67:27667?ttl=0"
 SAMPLE = ROOT / "logs/samples/living_room.lcmlog"
 SERVICES = ("simulator", "create_driver", "kinect_pub", "landmark_svc", "segment_svc", "ekf_svc")
 ANSWERS = {"TRUTH", "CREATE_STATE", "KINECT_FRAME", "LANDMARKS", "SEGMENTS", "POSE"}
+
+
+class Driver:
+    """Asks for a motion through the viewer, as a page whose key is held, until nobody listens."""
+    GOLDEN = HERE.parent / "lcmtypes/golden/velocity_request_t.hex"
+
+    def __init__(self, speed_mps):
+        fingerprint = bytes.fromhex(self.GOLDEN.read_text())[:8]
+        source, priority, valid_for_us = b"test\0", 50, 300_000
+        message = fingerprint + struct.pack(f">qqi{len(source)}siqdd", 0, 0, len(source), source,
+                                            priority, valid_for_us, speed_mps, 0.0)
+        self.request = frame(b"\x0bVEL_REQUEST" + message)
+        page = RawPage(8090)
+        self.connection = page.connected(page.handshake())
+        self.over = threading.Event()
+        self.threads = [threading.Thread(target=work) for work in (self.ask, self.read)]
+        for thread in self.threads:
+            thread.start()
+
+    def ask(self):
+        try:
+            while not self.over.wait(0.1):
+                self.connection.sendall(self.request)
+        except OSError:
+            pass
+
+    def read(self):
+        try:
+            while not self.over.is_set() and self.connection.recv(1 << 20):
+                pass
+        except OSError:
+            pass
+
+    def end(self):
+        self.over.set()
+        self.connection.close()
+        for thread in self.threads:
+            thread.join()
 
 
 class RunningSystem(StartedRun):
@@ -67,6 +111,26 @@ class RunningSystem(StartedRun):
         self.assert_works(f"started as {order}")
         self.assertEqual(self.end(), 0)
         self.assertFalse(self.processes())
+
+    @staticmethod
+    def moved_lately_m(log, lately_s=0.3):
+        """How far the robot truly came in the log's last part."""
+        table = subprocess.run([PROGRAMS / "rwlog", "csv", log, "TRUTH"], capture_output=True, text=True)
+        places = [(1e-6 * int(row["utime"]), float(row["true_x_m"]), float(row["true_y_m"]))
+                  for row in csv.DictReader(table.stdout.splitlines()) if row["true_y_m"]]
+        last = [place for time_s, *place in places if time_s > places[-1][0] - lately_s]
+        return math.dist(last[0], last[-1]) if last else 0.0
+
+    def test_ctrl_c_leaves_a_driving_robot_standing(self):
+        log = self.record()
+        self.start("--sim", "empty", "--url", URL)
+        self.until("all", self.all_up)
+        driver = Driver(speed_mps=0.2)
+        self.addCleanup(driver.end)
+        self.until("a driving robot", lambda: self.moved_lately_m(log) > 0.05)
+        self.process.send_signal(signal.SIGINT)
+        self.assertEqual(self.process.wait(timeout=30), 0)
+        self.assertLess(self.moved_lately_m(log), 0.002)
 
     def restarted(self, before):
         now = self.all_up()
