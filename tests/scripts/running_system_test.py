@@ -121,16 +121,29 @@ class RunningSystem(StartedRun):
         last = [place for time_s, *place in places if time_s > places[-1][0] - lately_s]
         return math.dist(last[0], last[-1]) if last else 0.0
 
+    def simulated_robot(self):
+        """A robot and a room that outlive the services, as real ones do."""
+        simulator = subprocess.Popen(
+            [PROGRAMS / "simulator", "--url", URL, "--scenario", "empty", "--create_port",
+             self.folder.create_port, "--kinect_door", self.folder.kinect_door()],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+        def stop():
+            simulator.terminate()
+            simulator.wait(timeout=10)
+        self.addCleanup(stop)
+
     def test_ctrl_c_leaves_a_driving_robot_standing(self):
         log = self.record()
-        self.start("--sim", "empty", "--url", URL)
+        self.start("--sim", "empty", "--without", "simulator", "--url", URL)
         self.until("all", self.all_up)
+        self.simulated_robot()
         driver = Driver(speed_mps=0.2)
         self.addCleanup(driver.end)
         self.until("a driving robot", lambda: self.moved_lately_m(log) > 0.05)
         self.process.send_signal(signal.SIGINT)
         self.assertEqual(self.process.wait(timeout=30), 0)
-        self.assertLess(self.moved_lately_m(log), 0.002)
+        self.until("a robot that stands", lambda: self.moved_lately_m(log) < 0.002)
 
     def restarted(self, before):
         now = self.all_up()
