@@ -23,6 +23,7 @@ class SimulatedWorld {
   SimulatedCreate& create() { return create_; }
   const SimulatedCreate& create() const { return create_; }
 
+  bool has_camera() const { return !create_.any_active(FaultKind::kCameraUnplug); }
   /// Pose of the camera frame (x right, y down, z forward) in the world.
   Eigen::Isometry3d T_world_camera() const;
 

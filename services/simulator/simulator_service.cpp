@@ -43,7 +43,8 @@ SimulatorService::SimulatorService(Bus& bus, const Params& params)
       world_(world_of(params)),
       port_(port_link(params)),
       real_time_(bus.now()),
-      camera_(world_.scene(), params, door_of(params)) {
+      plug_camera_([this, params] { camera_.emplace(world_.scene(), params, door_of(params)); }) {
+  plug_camera_();
   spdlog::info("simulator: {}; Create on {}, Kinect behind {}", world_.scene().name,
                port_link(params).string(), door_of(params).string());
   bus_.every(kTick, [this](Time) { advance(); });
@@ -78,9 +79,17 @@ void SimulatorService::step() {
     truth_t truth = truth_message(world_, real_time_.stamp(now), is_due(now, kLandmarkRate_hz));
     bus_.publish(channels::kTruth, truth);
   }
-  if (is_due(now, kCameraRate_hz)) {
-    camera_.take({real_time_.stamp(now), now, world_.T_world_camera()});
+  if (is_due(now, kCameraRate_hz)) show();
+}
+
+/// To the camera, which may be pulled out and plugged in again.
+void SimulatorService::show() {
+  if (!world_.has_camera()) return camera_.reset();
+  if (!camera_) {
+    plug_camera_();
+    camera_moments_dropped_ = 0;
   }
+  camera_->take({real_time_.stamp(world_.now()), world_.now(), world_.T_world_camera()});
 }
 
 void SimulatorService::answer() {
@@ -94,8 +103,9 @@ void SimulatorService::answer() {
   const std::int64_t line_lost =
       create.bytes_lost() - std::exchange(line_bytes_lost_, create.bytes_lost());
   if (line_lost > 0) bus_.count("line_bytes_lost", line_lost);
+  if (!camera_) return;
   const std::int64_t dropped =
-      camera_.dropped() - std::exchange(camera_moments_dropped_, camera_.dropped());
+      camera_->dropped() - std::exchange(camera_moments_dropped_, camera_->dropped());
   if (dropped > 0) bus_.count("camera_moments_dropped", dropped);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/bus/bus.h"
@@ -28,6 +30,7 @@ class SimulatorService {
   void advance();
   void listen();
   void step();
+  void show();
   void answer();
 
   Bus& bus_;
@@ -35,7 +38,8 @@ class SimulatorService {
   SimulatedWorld world_;
   Pty port_;
   RealTime real_time_;
-  CameraFeed camera_;
+  std::function<void()> plug_camera_;
+  std::optional<CameraFeed> camera_;  ///< plugged in
   std::vector<std::uint8_t> from_host_;
   std::vector<std::uint8_t> to_host_;
   std::int64_t line_bytes_lost_ = 0;

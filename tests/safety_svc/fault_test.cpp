@@ -29,10 +29,12 @@ constexpr std::int64_t kSettled_us = 150'000;  // TRUTH says the same for so lon
 constexpr double kStall_s = 0.06;
 constexpr int kAttempts = 4;
 constexpr double kSimulatedFaultAt_s = 9.0;
+constexpr double kRecovery_s = 15.0;
 
 /// What a fault did: from the instant of the fault on.
 struct Outcome {
   bool has_driven = false;
+  bool drives_again = false;     ///< where the fault is over by itself
   std::optional<double> stop_s;  ///< the wheels stood after this long; nothing: they went on
   double way_m = 0.0;
   double fastest_mps = 0.0;  ///< after the fault
@@ -48,6 +50,8 @@ struct Fault {
   std::string reason;          ///< a part of it
   bool goes_on = false;        ///< the robot is to drive on undisturbed
   std::string simulated = {};  ///< or a fault of the simulated robot, 9 s after its start
+  std::function<void(SafetyChain&)> before = {};  ///< it drives
+  bool is_over = false;                           ///< by itself: the robot drives again
 };
 
 std::function<void(SafetyChain&)> signal_to(Part part, int signal) {
@@ -101,6 +105,26 @@ const std::vector<Fault>& faults() {
        "", true},
       {"SecondPublisherForged", publisher(turn_hard), "", true},
       {"SecondPublisherRepeats", publisher([](Command&) {}), "", true},
+      {.name = "LogOfTheDriveReplayed",
+       .strike = [](SafetyChain& chain) { chain.play(chain.end_log()); },
+       .reason = "",
+       .goes_on = true,
+       .before = [](SafetyChain& chain) { chain.start_log(); }},
+      {"ClockSetForward",
+       [](SafetyChain& chain) { chain.step_clock(std::chrono::seconds(20)); },
+       "a clock jumped",
+       false,
+       "",
+       {},
+       true},
+      {"ClockSetBack",
+       [](SafetyChain& chain) { chain.step_clock(std::chrono::seconds(-20)); },
+       "a clock jumped",
+       false,
+       "",
+       {},
+       true},
+      {"CameraUnplugged", {}, "no camera", false, "camera_unplug,for_s=3", {}, true},
       {"SerialSilence", {}, "nothing heard", false, "silence,for_s=3"},
       {"SerialGarbage", {}, "nothing heard", false, "byte_flip,count=200"},
       {"Bump", {}, "bumper", false, "bump,side=left,for_s=3"},
@@ -110,7 +134,8 @@ const std::vector<Fault>& faults() {
   return all;
 }
 
-/// When the simulated fault began to show: the last moment the robot's stream was as before.
+/// When the simulated fault began to show: the last moment the robot's stream was as before. Where
+/// the robot feels nothing, when it was to begin.
 std::int64_t simulated_strike(const SafetyChain& chain, std::size_t from) {
   const auto shows = [](const create_state_t& s) {
     return s.bump_left != 0 || s.drop_left != 0 || s.cliff_left != 0 || s.cliff_front_left != 0 ||
@@ -120,27 +145,36 @@ std::int64_t simulated_strike(const SafetyChain& chain, std::size_t from) {
     const bool is_gap = chain.states[i].utime - chain.states[i - 1].utime > 100'000;
     if (is_gap || shows(chain.states[i])) return chain.states[i - 1].utime;
   }
-  return chain.states.back().utime;
+  constexpr double kTruthPeriod_us = 1e6 / 60.0;
+  const truth_t& first = chain.truth.front();
+  const double since_start_us = kTruthPeriod_us * static_cast<double>(first.seq);
+  return first.utime + std::llround(1e6 * kSimulatedFaultAt_s - since_start_us);
 }
 
-Outcome judge(const SafetyChain& chain, std::int64_t strike_utime) {
+double way_between_m(const truth_t& a, const truth_t& b) {
+  return std::hypot(b.true_x_m - a.true_x_m, b.true_y_m - a.true_y_m);
+}
+
+/// `is_over`: the robot may drive again after it stood once.
+Outcome judge(const SafetyChain& chain, std::int64_t strike_utime, bool is_over) {
   Outcome outcome;
   const truth_t* before = nullptr;
   const truth_t* moved = nullptr;
+  bool has_stood = false;
   for (std::size_t i = 1; i < chain.truth.size(); ++i) {
     const truth_t& a = chain.truth[i - 1];
     const truth_t& b = chain.truth[i];
     if (b.utime < strike_utime) continue;
     if (before == nullptr) before = &a;
-    const double step_m = std::hypot(b.true_x_m - a.true_x_m, b.true_y_m - a.true_y_m);
     const double dt_s = 1e-6 * static_cast<double>(std::max<std::int64_t>(b.utime - a.utime, 1000));
-    outcome.fastest_mps = std::max(outcome.fastest_mps, step_m / dt_s);
-    if (step_m / dt_s > 0.01) moved = &b;
+    const double speed_mps = way_between_m(a, b) / dt_s;
+    outcome.fastest_mps = std::max(outcome.fastest_mps, speed_mps);
+    has_stood = is_over && (has_stood || speed_mps < 0.01);
+    if (speed_mps > 0.01 && !has_stood) moved = &b;
   }
   if (before == nullptr) return outcome;
   if (moved == nullptr) moved = before;
-  outcome.way_m =
-      std::hypot(moved->true_x_m - before->true_x_m, moved->true_y_m - before->true_y_m);
+  outcome.way_m = way_between_m(*before, *moved);
   if (chain.truth.back().utime - moved->utime > kSettled_us) {
     outcome.stop_s = 1e-6 * static_cast<double>(moved->utime - strike_utime);
   }
@@ -187,6 +221,7 @@ ChainSetup setup_of(const Fault& fault, int port) {
 /// Drives until the robot is at its speed and, with a simulated fault, until just before it.
 /// Whether it drives then.
 bool get_going(SafetyChain& chain, const Fault& fault) {
+  if (fault.before) fault.before(chain);
   if (!chain.listen_until([&] { return chain.true_speed_mps() > 0.29; }, 20.0)) return false;
   const auto simulated_s = [&] {
     return 1e-6 * static_cast<double>(chain.truth.back().utime - chain.truth.front().utime);
@@ -212,10 +247,16 @@ Outcome drive_into(const Fault& fault, int port) {
     chain.listen_for(1.6);
     strike_utime = simulated_strike(chain, from);
   }
-  Outcome outcome = judge(chain, strike_utime);
+  Outcome outcome = judge(chain, strike_utime, fault.is_over);
+  if (fault.is_over) {
+    outcome.drives_again =
+        chain.listen_until([&] { return chain.true_speed_mps() > 0.29; }, kRecovery_s);
+  }
   outcome.has_driven = has_driven;
   outcome.reasons = reasons_after(chain, strike_utime);
-  if (!chain.states.empty()) outcome.last_state = chain.states.back();
+  if (!chain.states.empty()) {  // by stamp: a log that is played has old ones
+    outcome.last_state = *std::ranges::max_element(chain.states, {}, &create_state_t::utime);
+  }
   outcome.output = chain.output();
   outcome.is_disturbed = !has_driven || chain.longest_stall_s() > kStall_s;
   return outcome;
@@ -257,12 +298,16 @@ TEST_P(SafetyFault, StopsTheWheelsOrChangesNothing) {
   if (fault.goes_on) {
     EXPECT_FALSE(outcome.stop_s.has_value()) << outcome.reasons;
     const create_state_t& state = outcome.last_state;
-    EXPECT_GT(state.refused_unsigned + state.refused_forged + state.refused_out_of_order, 30);
+    EXPECT_GT(state.refused_unsigned + state.refused_forged + state.refused_expired +
+                  state.refused_out_of_order,
+              30)
+        << outcome.output;
     return;
   }
   ASSERT_TRUE(outcome.stop_s.has_value()) << outcome.output;
   // 0.3 m/s for 300 ms, and as much again for a machine that has other things to do.
   EXPECT_LT(outcome.way_m, 0.18);
+  EXPECT_EQ(outcome.drives_again, fault.is_over) << outcome.output;
   EXPECT_NE(outcome.reasons.find(fault.reason), std::string::npos) << outcome.reasons;
 }
 

@@ -10,7 +10,8 @@ StampResult InputWatch::hear(const Instant& now, Time measured) {
     return StampResult::kFromFuture;
   }
   if (measured < now.wall - kStampAge) return StampResult::kOld;
-  if (measured <= newest_ && received_) return StampResult::kOutOfOrder;
+  const bool was_set_back = newest_ > now.wall + kFutureSlack;
+  if (measured <= newest_ && received_ && !was_set_back) return StampResult::kOutOfOrder;
   newest_ = measured;
   received_ = now.steady;
   return StampResult::kFresh;

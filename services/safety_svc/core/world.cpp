@@ -23,10 +23,13 @@ InputResult World::hear_odometry(const Instant& now, const OdometrySample& sampl
   odometry = heard;
   if (result == OdometryResult::kStartedAnew) {
     memory_.forget();
-    has_moved_ = false;
+    has_stood_ = has_moved_ = false;
   }
-  has_moved_ = has_moved_ || !track_.stands();
-  if (!has_moved_) memory_.overlook_round(now, track_.pose_now(now), params_.start_radius_m);
+  has_stood_ = has_stood_ || track_.stands();
+  has_moved_ = has_moved_ || (has_stood_ && !track_.stands());
+  if (has_stood_ && !has_moved_) {
+    memory_.overlook_round(now, track_.pose_now(now), params_.start_radius_m);
+  }
   return InputResult::kUsed;
 }
 

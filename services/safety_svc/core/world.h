@@ -69,7 +69,9 @@ class World {
   ObstacleMemory memory_;
   std::optional<CameraMount> mount_;
   bool is_tilted_ = false;
-  bool has_moved_ = false;  // since the odom frame began
+  // Since the odom frame began. That may be in full motion, when the wall clock is set.
+  bool has_stood_ = false;
+  bool has_moved_ = false;  // away from where it first stood
 };
 
 }  // namespace roomwise::safety

@@ -122,6 +122,14 @@ TEST(InputWatch, IsFreshUpToItsAgeAndSaysIt) {
   EXPECT_DOUBLE_EQ(watch.age_s(later(milliseconds(250))), 0.25);
 }
 
+TEST(InputWatch, HearsOnAfterTheClockWasSetBack) {
+  InputWatch watch;
+  ASSERT_EQ(watch.hear(kStart, kStart.wall), StampResult::kFresh);
+  const Instant set_back{kStart.steady + Duration(1), kStart.wall - std::chrono::hours(1)};
+  EXPECT_EQ(watch.hear(set_back, set_back.wall), StampResult::kFresh);
+  EXPECT_EQ(watch.hear(set_back, set_back.wall), StampResult::kOutOfOrder);
+}
+
 TEST(InputWatch, UsesNoStampThatCannotBeTrue) {
   InputWatch watch;
   EXPECT_EQ(watch.hear(kStart, kStart.wall + kFutureSlack + Duration(1)), StampResult::kFromFuture);

@@ -30,6 +30,16 @@ TEST(Driving, BeginsWithACreepOverFloorItHasNotSeen) {
   EXPECT_EQ(decision.first, Reason::kUnknown);
 }
 
+TEST(Driving, WhenOdometryBeginsAnewInMotionItStopsAndCreepsOn) {
+  DrivenWorld drive;
+  drive.ask(0.3, 0.0);
+  ASSERT_GT(drive.run(seconds(12)).granted.speed_mps, 0.29);
+  ++drive.odometry_resets;
+  drive.T_odom_robot = {};
+  EXPECT_EQ(drive.step().granted.speed_mps, 0.0) << "what it knew is forgotten";
+  EXPECT_GT(drive.run(seconds(12)).granted.speed_mps, 0.29);
+}
+
 TEST(Driving, StopsBeforeAWallAndSaysWhy) {
   DrivenWorld drive;
   for (int i = -20; i <= 20; ++i) drive.discs.push_back({{2.5, 0.1 * i}, 0.1});

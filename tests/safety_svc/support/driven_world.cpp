@@ -63,7 +63,7 @@ OdometrySample DrivenWorld::odometry_sample() const {
           .distance_m = moved_.speed_mps * seconds(kTick),
           .turn_rad = moved_.turn_rate_radps * seconds(kTick),
           .T_odom_robot = T_odom_robot,
-          .reset_counter = 0};
+          .reset_counter = odometry_resets};
 }
 
 void DrivenWorld::hear() {

@@ -42,6 +42,7 @@ class DrivenWorld {
   bool has_camera = true;
   bool has_odometry = true;
   bool has_body = true;
+  int odometry_resets = 0;     ///< odom frames before this one
   Duration stamp_ahead{};      ///< added to every stamp
   double dark_within_m = 0.0;  ///< no readings at all of what is nearer
   Granted granted;

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -41,6 +42,15 @@ class SafetyChain {
     listen_until([] { return false; }, time_s);
   }
 
+  /// Sets the wall clock of all processes forward by that much.
+  void step_clock(std::chrono::seconds step);
+  /// Begins to write down all that is said but TRUTH, which no robot has.
+  void start_log();
+  /// Ends that. Where it is; in a folder that goes when this object does.
+  std::filesystem::path end_log();
+  /// Plays a log on the chain's bus, with stock lcm-logplayer.
+  void play(const std::filesystem::path& log);
+
   bool asks = true;
   std::function<void(LcmBus&)> also;  ///< called every 10 ms
 
@@ -62,10 +72,14 @@ class SafetyChain {
  private:
   void start(Part part, std::vector<std::string> command);
   void ask(LcmBus& bus);
+  std::int64_t unstepped(std::int64_t utime, Time now) const;
 
   ChainSetup setup_;
   RobotFolder folder_;
   std::unique_ptr<ChildProcess> processes_[kParts];
+  std::unique_ptr<ChildProcess> logger_;
+  std::unique_ptr<ChildProcess> player_;
+  std::chrono::seconds clock_step_{0};
   int turns_ = 0;
   double longest_stall_s_ = 0.0;
 };

@@ -22,6 +22,7 @@ constexpr std::array kKinds = {
     Kind{"wrong_length", FaultKind::kWrongLength, 0.0},
     Kind{"silence", FaultKind::kSilence, 0.3},
     Kind{"hang_up", FaultKind::kHangUp, 0.5},
+    Kind{"camera_unplug", FaultKind::kCameraUnplug, 2.0},
     Kind{"reboot", FaultKind::kReboot, 0.0},
     Kind{"mode_drop", FaultKind::kModeDrop, 0.0},
     Kind{"mode_32", FaultKind::kMode32, 0.0},

@@ -8,7 +8,7 @@
 
 namespace roomwise::simulator {
 
-/// What can go wrong with a Create and its serial line.
+/// What can go wrong with a Create, its serial line and the camera on it.
 enum class FaultKind : std::uint8_t {
   // on the line
   kByteLoss,        ///< a byte of a stream frame never arrives
@@ -17,6 +17,8 @@ enum class FaultKind : std::uint8_t {
   kWrongLength,     ///< the N of a stream frame is one too large
   kSilence,         ///< nothing arrives
   kHangUp,          ///< the port goes away and comes back
+  // on the camera's cable
+  kCameraUnplug,  ///< the camera goes away and comes back
   // in the robot
   kReboot,            ///< the power is cut: banner in mid-stream, mode Off
   kModeDrop,          ///< to Passive, for no reason that can be seen

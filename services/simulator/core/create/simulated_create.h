@@ -48,6 +48,8 @@ class SimulatedCreate {
   const OpenInterface& interface() const { return interface_; }
 
   /// False while the serial port is gone.
+  /// Whether a fault of that kind lasts now.
+  bool any_active(FaultKind kind) const;
   bool has_port() const;
 
   /// Bytes that found the robot's transmitter full.
@@ -63,7 +65,6 @@ class SimulatedCreate {
   void show_encoders(const LeftRight<std::uint16_t>& shown);
   void spoil_readings(BodyReadings& readings) const;
   void write_to_host(std::vector<std::uint8_t>& to_host);
-  bool any_active(FaultKind kind) const;
 
   RobotParams robot_params_;
   OpenInterface interface_;
