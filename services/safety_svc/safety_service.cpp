@@ -92,7 +92,9 @@ SafetyService::SafetyService(Bus& bus, const Params& params)
   bus_.subscribe(
       channels::kSegments,
       [this](const segmentation_t& m) {
-        note("segments", world_.hear_view(now(), safety::view_of(m)));
+        const safety::InputResult result = world_.hear_view(now(), safety::view_of(m));
+        note("segments", result);
+        if (result == safety::InputResult::kUsed) decide();  // not 20 ms later
       },
       Delivery::kLatest);
   bus_.subscribe(channels::kOdometry, [this](const odometry_t& m) {

@@ -15,7 +15,9 @@ TrialChain::TrialChain(const TrialSetup& setup) : setup_(setup) {
   world.insert(world.end(), setup.simulator.begin(), setup.simulator.end());
   start("simulator", world);
   start("safety_svc", {"--key_path", folder_.key()});
-  start("create_driver", {"--port", folder_.create_port(), "--key_path", folder_.key()});
+  const std::string robot = folder_.create_port();
+  const std::string port = setup.driver_port ? setup.driver_port(robot) : robot;
+  start("create_driver", {"--port", port, "--key_path", folder_.key()});
   start("landmark_svc", {});
   start("segment_svc", {});
   start("ekf_svc", {});

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct TrialSetup {
   std::string resolution = "320x240";
   std::vector<std::string> simulator;  ///< further options
   std::vector<std::string> pilot;
+  /// Given the robot's port, the one create_driver is to open; not set: that one.
+  std::function<std::string(const std::string&)> driver_port;
   std::filesystem::path log;  ///< all that is said, without the camera's frames; empty: no log
 };
 
