@@ -14,8 +14,7 @@ constexpr double kLookAhead_m = 0.1;   // beyond the stopping distance
 ReasonSet vetoes(const Instant& now, const World& world) {
   ReasonSet reasons = vetoes_of(world.body());
   if (world.estop.is_latched()) reasons.add(Reason::kEstop);
-  const bool sees = world.has_mount() && world.view.is_fresh(now, kCameraAge) &&
-                    world.frame.is_fresh(now, kCameraAge);
+  const bool sees = world.view.is_fresh(now, kCameraAge) && world.frame.is_fresh(now, kCameraAge);
   if (!sees) reasons.add(Reason::kNoCamera);
   if (!world.odometry.is_fresh(now, kOdometryAge)) reasons.add(Reason::kNoOdometry);
   if (!world.body_state.is_fresh(now, kCreateStateAge)) reasons.add(Reason::kNoCreateState);

@@ -11,7 +11,7 @@ StampResult InputWatch::hear(const Instant& now, Time measured) {
   }
   if (measured < now.wall - kStampAge) return StampResult::kOld;
   const bool was_set_back = newest_ > now.wall + kFutureSlack;
-  if (measured <= newest_ && received_ && !was_set_back) return StampResult::kOutOfOrder;
+  if (measured <= newest_ && !was_set_back) return StampResult::kOutOfOrder;
   newest_ = measured;
   received_ = now.steady;
   return StampResult::kFresh;

@@ -28,7 +28,7 @@ class InputWatch {
 
  private:
   std::optional<Duration> received_;
-  Time newest_{};
+  Time newest_ = Time::min();
   Duration distrusted_until_ = Duration::min();
 };
 

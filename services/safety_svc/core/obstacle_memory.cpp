@@ -80,7 +80,8 @@ struct ObstacleMemory::Ray {
 };
 
 ObstacleMemory::ObstacleMemory()
-    : cells_(static_cast<std::size_t>(kSide) * kSide), was_in_view_(kBinsMax, false) {}
+    : cells_(static_cast<std::size_t>(kSide) * kSide),
+      was_in_view_(kBinsMax + 2 * kEdgeBins, false) {}
 
 void ObstacleMemory::forget() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
 
@@ -91,8 +92,9 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
         view.first_bearing_rad + view.bearing_step_rad * static_cast<double>(bin);
     const double heading_rad = T_odom_robot.heading_rad + bearing_rad;
     const bool is_dark = view.unknown_ratio[bin] > kUnknownRatio;
+    const Eigen::Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
     return Ray{.p_odom_m = T_odom_robot.position_m(),
-               .direction = {std::cos(heading_rad), std::sin(heading_rad)},
+               .direction = direction,
                .free_m = std::clamp(view.free_range_m[bin], 0.0, kReach_m),
                .seen_from_m = view.floor_seen_from_m / std::cos(bearing_rad),
                .is_dark = is_dark && dark_round_rad(view, bin) >= kShadow_rad,
@@ -102,7 +104,7 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
   };
   const std::size_t bins = view.free_range_m.size();
   for (std::size_t bin = 0; bin < bins; ++bin) {
-    if (is_in_view(view.unknown_ratio[bin])) was_in_view_[bin] = true;
+    if (is_in_view(view.unknown_ratio[bin])) was_in_view_[kEdgeBins + bin] = true;
   }
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const Ray ray = ray_of(bin);
@@ -120,14 +122,13 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
 }
 
 bool ObstacleMemory::is_well_in_view(std::size_t bin) const {
-  if (bin < kEdgeBins || bin + kEdgeBins >= kBinsMax) return false;
-  const auto first = was_in_view_.begin() + static_cast<std::ptrdiff_t>(bin - kEdgeBins);
+  const auto first = was_in_view_.begin() + static_cast<std::ptrdiff_t>(bin);
   return std::all_of(first, first + 2 * kEdgeBins + 1, [](bool was) { return was; });
 }
 
 double ObstacleMemory::dark_round_rad(const FreeView& view, std::size_t bin) const {
   const auto is_dark = [&](std::size_t k) {
-    return was_in_view_[k] && view.unknown_ratio[k] > kUnknownRatio;
+    return was_in_view_[kEdgeBins + k] && view.unknown_ratio[k] > kUnknownRatio;
   };
   std::size_t first = bin;
   while (first > 0 && is_dark(first - 1)) --first;

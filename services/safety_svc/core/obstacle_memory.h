@@ -95,7 +95,8 @@ class ObstacleMemory {
   const Cell& cell_of(std::int32_t column, std::int32_t row) const;
 
   std::vector<Cell> cells_;
-  std::vector<bool> was_in_view_;  // by bearing bin: had it pixels with readings, ever
+  // By bearing bin, with kEdgeBins more on either side: had it pixels with readings, ever?
+  std::vector<bool> was_in_view_;
 };
 
 }  // namespace roomwise::safety

@@ -13,6 +13,8 @@ InputResult result_of(StampResult stamp) {
 
 }  // namespace
 
+World::World(const SafetyParams& params) : params_(params) {}
+
 InputResult World::hear_odometry(const Instant& now, const OdometrySample& sample) {
   InputWatch heard = odometry;  // kept only if the rest makes sense as well
   const InputResult stamp = result_of(heard.hear(now, sample.time));

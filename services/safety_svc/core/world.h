@@ -34,7 +34,7 @@ enum class InputResult : std::uint8_t {
 /// All that safety_svc knows. Fixed size: nothing is allocated after the constructor.
 class World {
  public:
-  explicit World(const SafetyParams& params) : params_(params) {}
+  explicit World(const SafetyParams& params);
 
   [[nodiscard]] InputResult hear_odometry(const Instant& now, const OdometrySample& sample);
   [[nodiscard]] InputResult hear_frame(const Instant& now, Time time, const CameraSetup& setup);
@@ -54,7 +54,6 @@ class World {
   const BodyState& body() const { return body_; }
   const OdometryTrack& track() const { return track_; }
   const ObstacleMemory& memory() const { return memory_; }
-  bool has_mount() const { return mount_.has_value(); }
   bool is_tilted() const { return is_tilted_; }
   /// Nobody asks for motion, the robot stands and nothing presses it: a stop may be reset.
   bool is_calm(const Instant& now) const;

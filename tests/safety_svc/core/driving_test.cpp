@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "services/safety_svc/core/stopping.h"
 #include "tests/safety_svc/support/driven_world.h"
@@ -163,6 +164,7 @@ TEST(Driving, ACliffStopsAllButTheWayBack) {
   drive.run(seconds(4));
   drive.body.cliff = true;
   EXPECT_EQ(drive.step().first, Reason::kCliff);
+  EXPECT_EQ(drive.run(milliseconds(200)).first, Reason::kCliff);
   drive.body.cliff = false;
   EXPECT_EQ(drive.run(milliseconds(200)).first, Reason::kDropOff);
 }
@@ -280,6 +282,42 @@ TEST(Driving, StampsFromTheFutureStopIt) {
   const Decision decision = drive.step();
   EXPECT_EQ(decision.granted.speed_mps, 0.0);
   EXPECT_TRUE(decision.reasons.has(Reason::kClock));
+}
+
+TEST(Driving, OneStampFromTheFutureIsEnough) {
+  const std::vector<std::function<void(DrivenWorld&)>> lies = {
+      [](DrivenWorld& d) { (void)d.world.hear_odometry(d.now(), d.odometry_sample()); },
+      [](DrivenWorld& d) { (void)d.world.hear_view(d.now(), d.view()); },
+      [](DrivenWorld& d) {
+        (void)d.world.hear_body(d.now(), d.now().wall + d.stamp_ahead, d.body);
+      },
+      [](DrivenWorld& d) {
+        (void)d.world.hear_frame(d.now(), d.now().wall + d.stamp_ahead, DrivenWorld::camera());
+      },
+      [](DrivenWorld& d) {
+        d.world.tick({d.now().steady, d.now().wall + milliseconds(500)});
+      }};
+  for (const auto& lie : lies) {
+    DrivenWorld drive;
+    drive.ask(0.3, 0.0);
+    drive.run(seconds(4));
+    drive.stamp_ahead = milliseconds(500);
+    lie(drive);
+    drive.stamp_ahead = {};
+    const Decision decision = drive.step();
+    EXPECT_EQ(decision.granted.speed_mps, 0.0);
+    EXPECT_TRUE(decision.reasons.has(Reason::kClock));
+  }
+}
+
+TEST(Driving, ViewsWithoutTheirFramesStopIt) {
+  DrivenWorld drive;
+  drive.ask(0.3, 0.0);
+  drive.run(seconds(4));
+  drive.has_frames = false;
+  const Decision decision = drive.run(kCameraAge + milliseconds(60));
+  EXPECT_EQ(decision.granted.speed_mps, 0.0);
+  EXPECT_TRUE(decision.reasons.has(Reason::kNoCamera));
 }
 
 TEST(Driving, AnEmergencyStopStaysUntilItIsReset) {

@@ -1,6 +1,7 @@
 // What is known of the camera, the way and the floor.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
@@ -51,6 +52,13 @@ TEST(CameraMount, RefusesWhatSeesNoFloorAhead) {
   EXPECT_TRUE(refuses([&](auto& s) { s.fy_px = nan; }));
   EXPECT_TRUE(refuses([](auto& s) { s.fy_px = 4300.0; })) << "farther than 5 m";
   EXPECT_TRUE(refuses([](auto& s) { s.cy_px = 500.0; })) << "looks up";
+  EXPECT_TRUE(refuses([](auto& s) {
+    const Eigen::Quaterniond upright(s.quat_wxyz[0], s.quat_wxyz[1], s.quat_wxyz[2],
+                                     s.quat_wxyz[3]);
+    const Eigen::Quaterniond lying =
+        upright * Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ());
+    s.quat_wxyz = {lying.w(), lying.x(), lying.y(), lying.z()};
+  })) << "lies on its side";
   EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz = {0.5, -0.5, -0.5, 0.5}; })) << "looks back";
   EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz = {1.0, 0.0, 0.0, 0.0}; })) << "lies on its side";
 }
@@ -321,6 +329,25 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
   }));
 }
 
+TEST(SweptCorridor, OfNoLengthNothingIsUnknown) {
+  const ObstacleMemory memory;
+  const CorridorView view = sweep(kStart, memory, {}, 0.0, 0.0, {});
+  EXPECT_EQ(view.free_m, 0.0);
+  EXPECT_EQ(view.unknown_ratio, 0.0);
+}
+
+TEST(World, TakesFloorAsSeenFromWhereItIsToldOrElseFromTheMounting) {
+  const auto speed_after_5_s = [](double floor_seen_from_m) {
+    DrivenWorld drive;
+    drive.params.floor_seen_from_m = floor_seen_from_m;
+    drive.world = World(drive.params);
+    drive.ask(0.3, 0.0);
+    return drive.run(seconds(5)).granted.speed_mps;
+  };
+  EXPECT_GT(speed_after_5_s(0.2), 0.29);
+  EXPECT_LT(speed_after_5_s(0.0), 0.15) << "creeps over what the camera cannot have seen";
+}
+
 TEST(World, SaysWhyAnInputIsNotUsed) {
   DrivenWorld drive;
   const Instant now = drive.now();
@@ -384,7 +411,16 @@ TEST(World, IsCalmOnlyIfNothingMovesAsksOrPresses) {
     EXPECT_FALSE(drive.world.is_calm(drive.now()));
     drive.body.*sensor = false;
   }
-  drive.step();
+  drive.asks = true;
+  drive.ask(0.0, 0.5);
+  drive.run(milliseconds(200));
+  drive.asks = false;
+  drive.has_odometry = false;  // it still turns, and nobody asks
+  drive.run(kRequestLife + milliseconds(20));
+  EXPECT_FALSE(drive.world.is_calm(drive.now()));
+  drive.has_odometry = true;
+  drive.run(milliseconds(200));
+  EXPECT_TRUE(drive.world.is_calm(drive.now()));
   drive.asks = true;
   drive.ask(std::numeric_limits<double>::quiet_NaN(), 0.0);
   drive.step();

@@ -82,7 +82,7 @@ void DrivenWorld::hear() {
         unknown_[index] = 1.0;
       }
     }
-    (void)world.hear_frame(now_, now_.wall + stamp_ahead, camera());
+    if (has_frames) (void)world.hear_frame(now_, now_.wall + stamp_ahead, camera());
     (void)world.hear_view(now_, view());
   }
   if (!asks) return;

@@ -40,6 +40,7 @@ class DrivenWorld {
   BodyState body{.is_in_driving_mode = true};
   bool asks = true;
   bool has_camera = true;
+  bool has_frames = true;  ///< of the camera; else its views alone are heard
   bool has_odometry = true;
   bool has_body = true;
   int odometry_resets = 0;     ///< odom frames before this one
