@@ -109,7 +109,10 @@ struct LandmarkParams {
     field("crease_side_min_m", crease.side_min_m, 0.01, 2.0);
     field("crease_side_max_m", crease.side_max_m, 0.01, 2.0);
     field("crease_angle_min_rad", crease.angle_min_rad, 0.1, 1.5);
+    field("crease_residual_max_quanta", crease.residual_max_quanta, 1e-3, 10.0);
     field("crease_residual_max_m", crease.residual_max_m, 1e-4, 1.0);
+    field("crease_bend_min_sigmas", crease.bend_min_sigmas, 0.0, 100.0);
+    field("crease_round_better_ratio", crease.round_better_ratio, 0.0, 10.0);
     field("crease_off_scan_max_m", crease.off_scan_max_m, 1e-3, 1.0);
     field("crease_suppress_px", crease.suppress_px, 0.0, 640.0);
     field("crease_position_bias_m", crease.position_bias_m, 1e-4, 1.0);
