@@ -56,7 +56,7 @@ DetectResult LandmarkDetector::detect(const RgbdFrame& frame,
 void LandmarkDetector::mark_moving(const RgbdFrame& frame,
                                    const std::optional<Pose2>& T_odom_robot) {
   if (!T_odom_robot || !floor_) {
-    moving_.clear();
+    forget_motion();
     return;
   }
   moving_.update(frame.utime, *T_odom_robot, scan_, frame.depth_camera, frame.depth.width_px,
@@ -64,8 +64,11 @@ void LandmarkDetector::mark_moving(const RgbdFrame& frame,
   for (Landmark& landmark : landmarks_) {
     const Eigen::Vector2d p_m = landmark.range_m * Eigen::Vector2d(std::cos(landmark.bearing_rad),
                                                                    std::sin(landmark.bearing_rad));
-    landmark.is_moving = moving_.covers(p_m, params_.moving);
+    landmark.is_moving =
+        moving_.covers(p_m, params_.moving) ||
+        !standing_.has_stood(frame.utime, *T_odom_robot, landmark, params_.standing);
   }
+  standing_.remember(frame.utime, *T_odom_robot, landmarks_);
 }
 
 void LandmarkDetector::find_edges(const RgbdFrame& frame) {
@@ -153,6 +156,7 @@ void LandmarkDetector::reserve(const DepthImage& depth) {
   scan_.reserve(depth.width_px);
   crease_finder_.reserve(columns);
   moving_.reserve(depth.width_px);
+  standing_.reserve(static_cast<std::size_t>(params_.landmarks_max));
 }
 
 }  // namespace roomwise::landmark

@@ -16,6 +16,7 @@
 #include "services/landmark_svc/core/moving_mask.h"
 #include "services/landmark_svc/core/reject_counts.h"
 #include "services/landmark_svc/core/slope_edges.h"
+#include "services/landmark_svc/core/standing.h"
 #include "services/landmark_svc/core/virtual_scan.h"
 
 namespace roomwise::landmark {
@@ -41,13 +42,17 @@ class LandmarkDetector {
   explicit LandmarkDetector(const LandmarkParams& params);
 
   /// Replaces the results below by those of `frame`. On anything but kOk they are as they were.
-  /// With the robot's pose by the odometry at the frame's time, what moves is found and marked;
+  /// With the robot's pose by the odometry at the frame's time, what moves, or has not been seen to
+  /// stand still for a moment, is marked;
   /// without, nothing is, and what earlier frames showed is forgotten.
   DetectResult detect(const RgbdFrame& frame,
                       const std::optional<Pose2>& T_odom_robot = std::nullopt);
 
   /// Forgets where earlier frames were seen from: the odometry started anew.
-  void forget_motion() { moving_.clear(); }
+  void forget_motion() {
+    moving_.clear();
+    standing_.clear();
+  }
 
   /// From left to right.
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -84,6 +89,7 @@ class LandmarkDetector {
   ChainEstimator estimator_;
   VirtualScan scan_;
   MovingMask moving_;
+  Standing standing_;
   CreaseFinder crease_finder_;
   std::optional<FloorView> floor_;
   double alpha_ratio_ = 0.0;

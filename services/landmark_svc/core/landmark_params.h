@@ -10,6 +10,7 @@
 #include "services/landmark_svc/core/moving_mask.h"
 #include "services/landmark_svc/core/region_of_interest.h"
 #include "services/landmark_svc/core/slope_edges.h"
+#include "services/landmark_svc/core/standing.h"
 
 namespace roomwise::landmark {
 
@@ -32,6 +33,7 @@ struct LandmarkParams {
   VirtualScanParams scan;
   CreaseParams crease;
   MovingParams moving;
+  StandingParams standing;
 
   bool is_thesis() const { return method == "thesis"; }
   /// 8 f b: disparity in quanta times depth in metres.
@@ -122,6 +124,10 @@ struct LandmarkParams {
     field("moving_unseen_free_m", moving.unseen_free_m, 0.0, 5.0);
     field("moving_width_min_m", moving.width_min_m, 0.0, 2.0);
     field("moving_reach_m", moving.reach_m, 0.0, 2.0);
+    field("standing_age_min_s", standing.age_min_s, 0.0, 1.0);
+    field("standing_age_max_s", standing.age_max_s, 0.0, 10.0);
+    field("standing_reach_m", standing.reach_m, 0.0, 1.0);
+    field("standing_reach_ratio", standing.reach_ratio, 0.0, 1.0);
   }
 };
 
