@@ -1,5 +1,6 @@
 #include "services/landmark_svc/core/landmark_detector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -116,18 +117,22 @@ void LandmarkDetector::find_creases(const RgbdFrame& frame) {
 void LandmarkDetector::find_chains(const RgbdFrame& frame) {
   const DepthImage& depth = frame.depth;
   linker_.link(edges_, table_, depth.width_px, depth.height_px, params_.chain);
+  linker_.prove_open_edges(edges_, table_, depth.width_px, depth.height_px, params_.chain);
   const ChainEstimator::Scene scene{depth,  frame.depth_camera, frame.T_robot_camera, table_,
                                     color_, params_.color};
   const double bend_max_px = params_.chain.bend_max_px * depth.width_px / 640.0;
+  const auto is_open = [](const EdgePixel& edge) { return edge.is_open; };
   const auto rows_min =
       static_cast<std::size_t>(params_.estimate.rows_min_px * depth.height_px / 480.0);
   for (const EdgeChain& chain : linker_.chains()) {
     linker_.collect(chain, edges_, chain_pixels_);
+    std::erase_if(chain_pixels_, is_open);
     split_at_bends(chain_pixels_, bend_max_px, rows_min, pieces_);
     for (const ChainPiece& piece : pieces_) {
       try_chain(scene, std::span(chain_pixels_).subspan(piece.begin, piece.end - piece.begin));
     }
   }
+  std::erase_if(edges_, is_open);
 }
 
 void LandmarkDetector::try_chain(const ChainEstimator::Scene& scene,

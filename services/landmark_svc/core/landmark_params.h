@@ -25,7 +25,7 @@ struct LandmarkParams {
   double thin_width_max_m = 0.25;          ///< two edges nearer to each other make one pole
   int edge_pixels_listed_max = 4000;       ///< in the message, evenly thinned; all are counted
   RegionParams region;
-  JumpEdgeParams jump;
+  JumpEdgeParams jump{.finds_open = true};
   SlopeEdgeParams slope;
   ColorWeightParams color;
   ChainParams chain;
@@ -68,6 +68,7 @@ struct LandmarkParams {
     field("gap_slope_quanta_px", jump.gap_slope_quanta_px, 0.0, 100.0);
     field("near_run_px", jump.near_run_px, 2, kNearRunMax_px);
     field("far_run_px", jump.far_run_px, 1, 100);
+    field("finds_open", jump.finds_open);
     field("range_min_m", jump.range_min_m, 0.0, 4.095);
     field("range_max_m", jump.range_max_m, 0.0, 4.095);
     field("threshold_mm_per_px", slope.threshold_mm_per_px, 0.0, 10000.0);
@@ -85,6 +86,7 @@ struct LandmarkParams {
     field("depth_step_m", chain.depth_step_m, 0.0, 1.0);
     field("depth_step_per_m_m2", chain.depth_step_per_m_m2, 0.0, 1.0);
     field("row_gap_max_px", chain.row_gap_max_px, 0, 100);
+    field("proof_rows_px", chain.proof_rows_px, 0, 480);
     field("bend_max_px", chain.bend_max_px, 0.5, 64.0);
     field("rows_min_px", estimate.rows_min_px, 3.0, 480.0);
     field("height_span_min_m", estimate.height_span_min_m, 0.0, 3.0);

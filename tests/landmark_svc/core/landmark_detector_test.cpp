@@ -254,6 +254,25 @@ TEST(LandmarkDetector, WorksAtEverySize) {
   }
 }
 
+TEST(LandmarkDetector, ADoorwayHasItsPostsThoughWhatLiesBehindIsTooFarForADepth) {
+  const SyntheticRoom doorway{.boxes = {{.low_m = {2.5, -2.0, 0.0}, .high_m = {2.6, -0.45, 2.5}},
+                                        {.low_m = {2.5, 0.45, 0.0}, .high_m = {2.6, 2.0, 2.5}},
+                                        {.low_m = {6.0, -4.0, 0.0}, .high_m = {6.1, 4.0, 2.5}}}};
+  SyntheticRoom wall_before_a_void = doorway;
+  wall_before_a_void.has_floor = false;
+  int posts = 0;
+  for (const Landmark& landmark : detect(kinect_view(doorway, {}, {}, 3))) {
+    const Eigen::Vector2d p = position_m(landmark);
+    EXPECT_LT(std::abs(std::abs(p.y()) - 0.45), 0.03);
+    EXPECT_GT(p.x(), 2.45);
+    EXPECT_LT(p.x(), 2.65);
+    posts += is_edge(landmark) && landmark.height_high_m > 0.7 ? 1 : 0;
+  }
+  EXPECT_EQ(posts, 2);
+  const auto unproven = detect(kinect_view(wall_before_a_void, {}, {}, 3));
+  EXPECT_TRUE(std::none_of(unproven.begin(), unproven.end(), is_edge));
+}
+
 TEST(LandmarkDetector, ThesisMethodSeesTheFurnitureToo) {
   LandmarkParams params;
   params.method = "thesis";
@@ -339,6 +358,7 @@ TEST(LandmarkDetector, MaximumClutterStaysWithinItsBudget) {
     frame.depth.steps[i] = i % 8 < 4 ? std::uint16_t{1000} : std::uint16_t{3000};
   }
   LandmarkParams params;
+  params.jump.near_run_px = 4;  // as short as anything can be
   params.landmarks_max = 2;
   LandmarkDetector detector(params);
   ASSERT_EQ(detector.detect(frame), DetectResult::kOk);
