@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "services/landmark_svc/core/automatic_range.h"
 #include "services/landmark_svc/core/landmark_pieces.h"
 #include "services/landmark_svc/core/thin_things.h"
 
@@ -80,14 +81,29 @@ void LandmarkDetector::find_edges(const RgbdFrame& frame) {
   rejected_.clear();
   const PixelRectangle region =
       region_of_interest(params_.region, frame.depth.width_px, frame.depth.height_px);
+  range_max_m_ = range_max_of(frame.depth, region);
   if (params_.is_thesis()) {
+    SlopeEdgeParams slope = params_.slope;
+    slope.range_max_m = range_max_m_;
     alpha_ratio_ =
         color_.available() ? color_weight_ratio(params_.color, mean_luma_levels(frame.color)) : 0.0;
-    slope_finder_.find(frame.depth, table_, color_, region, params_.slope, params_.color,
-                       alpha_ratio_, edges_, rejected_);
+    slope_finder_.find(frame.depth, table_, color_, region, slope, params_.color, alpha_ratio_,
+                       edges_, rejected_);
   } else {
-    jump_finder_.find(frame.depth, table_, region, params_.jump, edges_, rejected_);
+    JumpEdgeParams jump = params_.jump;
+    jump.range_max_m = range_max_m_;
+    jump_finder_.find(frame.depth, table_, region, jump, edges_, rejected_);
   }
+}
+
+double LandmarkDetector::range_min_m() const {
+  return params_.is_thesis() ? params_.slope.range_min_m : params_.jump.range_min_m;
+}
+
+double LandmarkDetector::range_max_of(const DepthImage& depth, const PixelRectangle& region) const {
+  const double most_m = params_.is_thesis() ? params_.slope.range_max_m : params_.jump.range_max_m;
+  if (!params_.range_is_automatic) return most_m;
+  return std::min(most_m, automatic_range_m(depth, table_, region).value_or(most_m));
 }
 
 void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {

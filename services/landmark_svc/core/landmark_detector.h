@@ -67,6 +67,10 @@ class LandmarkDetector {
   /// Weight of colour in force on this frame; depth's is 1 - alpha. 0 for method "disparity".
   double alpha_ratio() const { return alpha_ratio_; }
 
+  /// Trusted depths of an edge's near side in force on this frame.
+  double range_min_m() const;
+  double range_max_m() const { return range_max_m_; }
+
   const LandmarkParams& params() const { return params_; }
 
   /// The first stage alone, for benchmarks: edges of a frame detect() would accept.
@@ -74,6 +78,7 @@ class LandmarkDetector {
 
  private:
   void reserve(const DepthImage& depth);
+  double range_max_of(const DepthImage& depth, const PixelRectangle& region) const;
   void find_landmarks(const RgbdFrame& frame);
   void find_chains(const RgbdFrame& frame);
   void find_creases(const RgbdFrame& frame);
@@ -93,6 +98,7 @@ class LandmarkDetector {
   CreaseFinder crease_finder_;
   std::optional<FloorView> floor_;
   double alpha_ratio_ = 0.0;
+  double range_max_m_ = 0.0;
   std::vector<EdgePixel> edges_;
   std::vector<EdgePixel> chain_pixels_;
   std::vector<ChainPiece> pieces_;

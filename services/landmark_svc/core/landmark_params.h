@@ -20,6 +20,7 @@ struct LandmarkParams {
   bool use_color = true;                   ///< false: colour is not even decoded
   double baseline_m = 0.075;               ///< projector to camera
   double disparity_focal_px = 585.0;       ///< focal length of the sensor's 640 px matching grid
+  bool range_is_automatic = false;         ///< farthest range from each frame's histogram of depths
   int landmarks_max = 64;                  ///< a frame, best scored first
   double join_gate_mahalanobis_sq = 9.21;  ///< chi-square, 2 degrees of freedom, 99 %
   double thin_width_max_m = 0.25;          ///< two edges nearer to each other make one pole
@@ -45,6 +46,7 @@ struct LandmarkParams {
     field("use_color", use_color);
     field("baseline_m", baseline_m, 0.01, 0.5);
     field("disparity_focal_px", disparity_focal_px, 50.0, 5000.0);
+    field("range_is_automatic", range_is_automatic);
     field("landmarks_max", landmarks_max, 0, 200);
     field("join_gate_mahalanobis_sq", join_gate_mahalanobis_sq, 0.0, 100.0);
     field("edge_pixels_listed_max", edge_pixels_listed_max, 0, 8000);

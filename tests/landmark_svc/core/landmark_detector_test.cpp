@@ -273,6 +273,23 @@ TEST(LandmarkDetector, ADoorwayHasItsPostsThoughWhatLiesBehindIsTooFarForADepth)
   EXPECT_TRUE(std::none_of(unproven.begin(), unproven.end(), is_edge));
 }
 
+TEST(LandmarkDetector, AutomaticRangeLeavesTheBackgroundOut) {
+  SyntheticRoom room = furnished_room();
+  LandmarkParams params;
+  params.range_is_automatic = true;
+  LandmarkDetector automatic(params);
+  LandmarkDetector fixed{LandmarkParams{}};
+  const RgbdFrame frame = kinect_view(room, {}, {}, 1);
+  ASSERT_EQ(automatic.detect(frame), DetectResult::kOk);
+  ASSERT_EQ(fixed.detect(frame), DetectResult::kOk);
+  EXPECT_EQ(fixed.range_max_m(), 3.81);
+  EXPECT_LT(automatic.range_max_m(), 3.81);
+  EXPECT_GT(automatic.range_max_m(), 0.6);
+  for (const EdgePixel& edge : automatic.edges()) {
+    EXPECT_LE(edge.near_steps * 0.001, automatic.range_max_m() + 0.002);
+  }
+}
+
 TEST(LandmarkDetector, ThesisMethodSeesTheFurnitureToo) {
   LandmarkParams params;
   params.method = "thesis";
