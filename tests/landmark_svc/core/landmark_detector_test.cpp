@@ -254,42 +254,6 @@ TEST(LandmarkDetector, WorksAtEverySize) {
   }
 }
 
-TEST(LandmarkDetector, ADoorwayHasItsPostsThoughWhatLiesBehindIsTooFarForADepth) {
-  const SyntheticRoom doorway{.boxes = {{.low_m = {2.5, -2.0, 0.0}, .high_m = {2.6, -0.45, 2.5}},
-                                        {.low_m = {2.5, 0.45, 0.0}, .high_m = {2.6, 2.0, 2.5}},
-                                        {.low_m = {6.0, -4.0, 0.0}, .high_m = {6.1, 4.0, 2.5}}}};
-  SyntheticRoom wall_before_a_void = doorway;
-  wall_before_a_void.has_floor = false;
-  int posts = 0;
-  for (const Landmark& landmark : detect(kinect_view(doorway, {}, {}, 3))) {
-    const Eigen::Vector2d p = position_m(landmark);
-    EXPECT_LT(std::abs(std::abs(p.y()) - 0.45), 0.03);
-    EXPECT_GT(p.x(), 2.45);
-    EXPECT_LT(p.x(), 2.65);
-    posts += is_edge(landmark) && landmark.height_high_m > 0.7 ? 1 : 0;
-  }
-  EXPECT_EQ(posts, 2);
-  const auto unproven = detect(kinect_view(wall_before_a_void, {}, {}, 3));
-  EXPECT_TRUE(std::none_of(unproven.begin(), unproven.end(), is_edge));
-}
-
-TEST(LandmarkDetector, AutomaticRangeLeavesTheBackgroundOut) {
-  SyntheticRoom room = furnished_room();
-  LandmarkParams params;
-  params.range_is_automatic = true;
-  LandmarkDetector automatic(params);
-  LandmarkDetector fixed{LandmarkParams{}};
-  const RgbdFrame frame = kinect_view(room, {}, {}, 1);
-  ASSERT_EQ(automatic.detect(frame), DetectResult::kOk);
-  ASSERT_EQ(fixed.detect(frame), DetectResult::kOk);
-  EXPECT_EQ(fixed.range_max_m(), 3.81);
-  EXPECT_LT(automatic.range_max_m(), 3.81);
-  EXPECT_GT(automatic.range_max_m(), 0.6);
-  for (const EdgePixel& edge : automatic.edges()) {
-    EXPECT_LE(edge.near_steps * 0.001, automatic.range_max_m() + 0.002);
-  }
-}
-
 TEST(LandmarkDetector, ThesisMethodSeesTheFurnitureToo) {
   LandmarkParams params;
   params.method = "thesis";
