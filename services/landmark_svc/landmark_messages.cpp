@@ -54,8 +54,8 @@ void state_what_was_in_force(const LandmarkDetector& detector, landmark_list_t& 
   message.beta_ratio = 1.0 - detector.alpha_ratio();
   message.threshold_mm_per_px = is_thesis ? params.slope.threshold_mm_per_px : 0.0;
   message.threshold_quanta = is_thesis ? 0.0 : params.jump.jump_quanta;
-  message.range_min_m = is_thesis ? params.slope.range_min_m : params.jump.range_min_m;
-  message.range_max_m = is_thesis ? params.slope.range_max_m : params.jump.range_max_m;
+  message.range_min_m = detector.range_min_m();
+  message.range_max_m = detector.range_max_m();
 }
 
 }  // namespace

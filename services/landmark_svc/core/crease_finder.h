@@ -1,31 +1,38 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "common/image/rgbd_frame.h"
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/landmark.h"
 #include "services/landmark_svc/core/reject_counts.h"
+#include "services/landmark_svc/core/scan_lines.h"
 #include "services/landmark_svc/core/virtual_scan.h"
 
 namespace roomwise::landmark {
 
 /// What counts as a crease: where two upright planes meet.
 struct CreaseParams {
-  double side_min_m = 0.12;        ///< straight length needed on either side
-  double side_max_m = 0.25;        ///< and looked at
-  double angle_min_rad = 0.70;     ///< between the two sides
-  double residual_max_m = 0.006;   ///< RMS about either side's line, plus half a quantum
-  double off_scan_max_m = 0.03;    ///< from the lines' crossing to the scan
-  double suppress_px = 14.0;       ///< one crease within so many columns, at 640 px image width
-  double position_bias_m = 0.010;  ///< sigma of what does not average out
+  double side_min_m = 0.07;           ///< straight length needed on either side
+  double side_max_m = 0.25;           ///< and looked at
+  double angle_min_rad = 0.70;        ///< between the two sides
+  double residual_max_quanta = 0.30;  ///< RMS of disparity about either side's line: the sensor's
+  double residual_max_m = 0.003;      ///< and, added in squares, how uneven a surface may be
+  double bend_min_sigmas = 14.0;      ///< by which the two sides' slopes differ
+  double round_better_ratio = 1.5;  ///< a circle's RMS, of the two lines', from which on it is none
+  double off_scan_max_m = 0.03;     ///< from the lines' crossing to the scan
+  double suppress_px = 14.0;        ///< one crease within so many columns, at 640 px image width
+  double position_bias_m = 0.010;   ///< sigma of what does not average out
 };
 
-/// Finds creases in a virtual scan: to either side of each point a total-least-squares line, by
-/// prefix sums, so O(points); the crossing of the two straightest lines around is the crease. Its
-/// place does not depend on the viewpoint.
+/// Finds creases in a virtual scan: a line (ScanLines) to either side of each point, O(points) by
+/// prefix sums; where the two straightest lines around cross is the crease. Its place does not
+/// depend on the viewpoint.
 ///
-/// A round thing bends within each side too: what turns there by half of the angle is no crease.
-/// With n1, n2 the lines' normals and s1, s2 their sigmas, the covariance of the crossing is
+/// Both sides must be as straight as the sensor's noise lets a plane look, which a step or the foot
+/// of something in front is not, and differ in slope by more than that noise can make them. A
+/// circle that fits both sides nearly as well as the lines do makes it a round thing, not a crease.
+/// With n1, n2 the lines' normals and s1, s2 their sigmas at the crossing, its covariance is
 /// (n1 n1' / s1^2 + n2 n2' / s2^2)^-1.
 class CreaseFinder {
  public:
@@ -37,36 +44,33 @@ class CreaseFinder {
             std::vector<Landmark>& landmarks, RejectCounts& rejected);
 
  private:
-  struct Sums {  // over the points before, about the scan's first
-    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-  };
-  struct Line {
-    Eigen::Vector2d mean_m;
-    Eigen::Vector2d along;  ///< unit
-    double rms_m;
-    double points;
-  };
   struct Candidate {
-    std::size_t at;   ///< index of the scan point
-    double misfit_m;  ///< RMS of both sides
-    bool is_convex;
-    Eigen::Vector2d p_robot_m;
-    Eigen::Matrix2d covariance_m2;
-    double angle_rad;
+    std::size_t at;     ///< index of the scan point
     std::size_t first;  ///< points of both sides: [first, last]
     std::size_t last;
+    ScanLine one;
+    ScanLine two;
+    double misfit_quanta;  ///< RMS of both sides
+    Eigen::Vector2d p_m;   ///< the crossing: along and to the left of the camera
   };
 
-  void prepare(const std::vector<ScanPoint>& points, const DisparityTable& table);
-  Line line_of(std::size_t begin, std::size_t end) const;
-  double bend_rad(std::size_t begin, std::size_t end) const;
+  struct Side {
+    std::size_t end;  ///< its outermost point
+    ScanLine line;
+  };
+
+  /// The longest straight side of a crease at `at`; none if it is too short.
+  std::optional<Side> side_of(std::size_t at, int step, double residual_max_quanta,
+                              const CreaseParams& params, RejectCounts& rejected) const;
   bool judge(const VirtualScan& scan, std::size_t at, const DisparityTable& table,
              const CreaseParams& params, Candidate& candidate, RejectCounts& rejected) const;
-  std::size_t reach(const std::vector<ScanPoint>& points, std::size_t from, int step,
-                    double length_m) const;
+  bool is_round(const Candidate& candidate, const DisparityTable& table,
+                const CreaseParams& params) const;
+  void append(const Candidate& candidate, const VirtualScan& scan, const FloorView& floor,
+              const PinholeCamera& camera, const DisparityTable& table, const CreaseParams& params,
+              std::vector<Landmark>& landmarks) const;
 
-  std::vector<Sums> sums_;
-  std::vector<std::uint32_t> piece_;  ///< of each point: which unbroken piece of the scan
+  ScanLines lines_;
   std::vector<Candidate> candidates_;
 };
 

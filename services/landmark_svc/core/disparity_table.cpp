@@ -15,6 +15,7 @@ void DisparityTable::prepare(double unit_m, double quanta_m) {
       std::ceil(std::min(std::max(kDepthMin_m / unit_m * (1.0 - kRounding), 1.0), kLastStep + 1)));
   largest_good_step_ =
       static_cast<int>(std::min(kDepthMax_m / unit_m * (1.0 + kRounding), kLastStep));
+  largest_beyond_step_ = static_cast<int>(std::min(kBeyondMax_m / unit_m, kLastStep));
   parts_.assign(65536, 0);
   for (int step = smallest_good_step_; step <= largest_good_step_; ++step) {
     const double parts = std::round(kPartsPerQuantum * quanta_m / (step * unit_m));

@@ -21,6 +21,7 @@ class DisparityTable {
  public:
   static constexpr int kPartsPerQuantum = 8;
   static constexpr double kDepthMax_m = 4.095;  ///< 12 bits of millimetres; farther is bad data
+  static constexpr double kBeyondMax_m = 10.0;  ///< nor does any tell what is farther
   static constexpr double kDepthMin_m = 0.06;   ///< no such camera measures nearer
 
   /// Makes the table for images of `unit_m` metres a step and a sensor of `quanta_m` = 8 f b.
@@ -30,6 +31,16 @@ class DisparityTable {
   /// True for a reading: false for 0, 0xFFFF (-1 in the Kinect SDK) and beyond 4095 mm. A bad
   /// reading means unknown, never free.
   bool is_good(std::uint16_t step) const { return parts_[step] != 0; }
+
+  /// True for a reading that is bad only because it is too far, up to 10 m: it has no place worth
+  /// having, but what it belongs to is farther than anything good.
+  bool is_beyond(std::uint16_t step) const {
+    return step > largest_good_step_ && step <= largest_beyond_step_;
+  }
+  /// Disparity of such a reading, as parts().
+  int parts_beyond(std::uint16_t step) const {
+    return static_cast<int>(kPartsPerQuantum * quanta_m_ / depth_m(step));
+  }
 
   /// Disparity in eighths of a quantum; 0 for a bad reading.
   std::uint16_t parts(std::uint16_t step) const { return parts_[step]; }
@@ -55,6 +66,7 @@ class DisparityTable {
   double quanta_m_ = 0.0;
   int smallest_good_step_ = 1;
   int largest_good_step_ = 0;
+  int largest_beyond_step_ = 0;
   std::vector<std::uint16_t> parts_;
 };
 

@@ -16,6 +16,7 @@ struct EdgePixel {
   std::uint16_t gap_px = 1;      ///< columns from near to far pixel; > 1 where bad data is bridged
   std::uint8_t near_run_px = 1;  ///< pixels of unbroken surface on the near side, at most 8
   EdgeSide side = EdgeSide::kLeft;
+  bool is_open = false;  ///< the far pixel's depth is beyond what is good: an edge in company only
 
   /// Column step from the edge into the near surface.
   int inward_px() const { return side == EdgeSide::kLeft ? 1 : -1; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include "common/multiversion.h"
 
@@ -39,6 +40,15 @@ struct Limits {
   int far_run_px;
   int near_steps_min;
   int near_steps_max;
+  bool finds_open;
+};
+
+/// Columns of a row.
+struct Edge {
+  int near;
+  int far;
+  int near_run_px;
+  bool is_open;
 };
 
 /// Judges the changes of one row.
@@ -52,24 +62,77 @@ class RowJudge {
   void change_at(int u, RejectCounts& rejected, Found found) {
     const bool good_before = table_.is_good(row_[u - 1]);
     const bool good_here = table_.is_good(row_[u]);
-    if (good_before && !good_here) last_good_ = u - 1;
+    if (good_before && !good_here) {
+      last_good_ = u - 1;
+      open_far_ = far_beyond(u, 1);
+    }
     if (!good_here) return;
     const int before = good_before ? u - 1 : last_good_;
-    if (before < 0 || u - before > limits_.gap_max_px + 1 || !is_jump(before, u)) return;
-    const bool here_is_near = row_[u] < row_[before];
-    judge(here_is_near ? u : before, here_is_near ? before : u, rejected, found);
+    const std::optional<Edge> edge = edge_between(before, u, rejected);
+    if (!edge || edge->near != before) end_open(found);
+    open_far_ = -1;
+    if (edge) {
+      found(*edge);
+    } else if (const int far = good_before ? -1 : far_beyond(u - 1, -1); is_open_edge(u, far)) {
+      found(Edge{u, far, near_run_px(u, 1), true});
+    }
+  }
+
+  /// Tells of the row's end.
+  template <class Found>
+  void end(Found found) {
+    end_open(found);
   }
 
  private:
-  int parts(int u) const { return table_.parts(row_[u]); }
+  int parts(int u) const {
+    return table_.is_good(row_[u]) ? table_.parts(row_[u]) : table_.parts_beyond(row_[u]);
+  }
+  bool is_measured(int u) const { return table_.is_good(row_[u]) || table_.is_beyond(row_[u]); }
+
+  std::optional<Edge> edge_between(int before, int u, RejectCounts& rejected) const {
+    if (before < 0 || u - before > limits_.gap_max_px + 1 || !is_jump(before, u)) {
+      return std::nullopt;
+    }
+    const bool here_is_near = row_[u] < row_[before];
+    return judge(here_is_near ? u : before, here_is_near ? before : u, rejected);
+  }
+
+  /// The first reading beyond from column u on, holes up to the largest gap passed over; -1: none.
+  int far_beyond(int u, int outward) const {
+    if (!limits_.finds_open) return -1;
+    for (int k = 0; k <= limits_.gap_max_px; ++k, u += outward) {
+      if (!inside(u) || table_.is_good(row_[u])) return -1;
+      if (table_.is_beyond(row_[u])) return u;
+    }
+    return -1;
+  }
+
+  bool is_open_edge(int near, int far) const {
+    if (far < 0 || row_[near] < limits_.near_steps_min || row_[near] > limits_.near_steps_max) {
+      return false;
+    }
+    const int inward = near > far ? 1 : -1;
+    const int near_run = near_run_px(near, inward);
+    return near_run >= limits_.near_run_px && stays_far(near, far, -inward) &&
+           !is_explained_by_slope(near, far, inward, near_run);
+  }
+
+  template <class Found>
+  void end_open(Found found) {
+    if (is_open_edge(last_good_, open_far_)) {
+      found(Edge{last_good_, open_far_, near_run_px(last_good_, -1), true});
+    }
+    open_far_ = -1;
+  }
+
   bool inside(int u) const { return u >= 0 && u < width_; }
   bool is_jump(int a, int b) const {
     return std::abs(parts(a) - parts(b)) >= limits_.jump_parts &&
            std::abs(row_[a] - row_[b]) >= limits_.jump_steps;
   }
 
-  template <class Found>
-  void judge(int near, int far, RejectCounts& rejected, Found found) const {
+  std::optional<Edge> judge(int near, int far, RejectCounts& rejected) const {
     const int inward = near > far ? 1 : -1;
     const int near_run = near_run_px(near, inward);
     if (row_[near] < limits_.near_steps_min || row_[near] > limits_.near_steps_max) {
@@ -81,8 +144,9 @@ class RowJudge {
     } else if (is_explained_by_slope(near, far, inward, near_run)) {
       rejected.add(RejectReason::kEdgeOnSlope);
     } else {
-      found(near, far, near_run);
+      return Edge{near, far, near_run, false};
     }
+    return std::nullopt;
   }
 
   int near_run_px(int near, int inward) const {
@@ -98,7 +162,7 @@ class RowJudge {
   bool stays_far(int near, int far, int outward) const {
     for (int k = 1; k < limits_.far_run_px; ++k) {
       const int u = far + outward * k;
-      if (!inside(u) || !table_.is_good(row_[u])) return false;
+      if (!inside(u) || !is_measured(u)) return false;
       if (row_[u] < row_[near] || !is_jump(near, u)) return false;
     }
     return true;
@@ -118,6 +182,7 @@ class RowJudge {
   const DisparityTable& table_;
   const Limits& limits_;
   int last_good_ = -1;
+  int open_far_ = -1;  ///< what lies beyond last_good_, if that is a reading beyond
 };
 
 /// Calls `change(u)` for each marked column, skipping eight unmarked ones at a time.
@@ -134,14 +199,18 @@ Limits limits_of(const JumpEdgeParams& params, const DisparityTable& table, int 
   const auto parts = [](double quanta) {
     return static_cast<int>(std::lround(quanta * DisparityTable::kPartsPerQuantum));
   };
+  constexpr int kShortestRun_px = 4;
+  const int near_run =
+      std::min(params.near_run_px, std::max(kShortestRun_px, params.near_run_px * width_px / 640));
   return {.jump_parts = parts(params.jump_quanta),
           .jump_steps = table.steps_from_m(params.jump_m),
           .gap_max_px = static_cast<int>(std::lround(params.gap_max_px * width_px / 640.0)),
           .gap_slope_parts = parts(params.gap_slope_quanta_px),
-          .near_run_px = params.near_run_px,
+          .near_run_px = near_run,
           .far_run_px = params.far_run_px,
           .near_steps_min = table.steps_from_m(params.range_min_m),
-          .near_steps_max = table.steps_from_m(params.range_max_m)};
+          .near_steps_max = table.steps_from_m(params.range_max_m),
+          .finds_open = params.finds_open};
 }
 
 }  // namespace
@@ -165,17 +234,18 @@ void JumpEdgeFinder::find(const DepthImage& depth, const DisparityTable& table,
                  static_cast<std::uint16_t>(good_span), static_cast<std::uint16_t>(marked_step),
                  changes_.data());
     RowJudge judge(row, width, table, limits);
-    for_each_change(changes_.data(), width, [&](int u) {
-      judge.change_at(u, rejected, [&](int near, int far, int near_run) {
-        edges.push_back({.u_px = static_cast<std::int16_t>(region.u_begin_px + near),
-                         .v_px = static_cast<std::int16_t>(v),
-                         .near_steps = row[near],
-                         .far_steps = row[far],
-                         .gap_px = static_cast<std::uint16_t>(std::abs(far - near)),
-                         .near_run_px = static_cast<std::uint8_t>(near_run),
-                         .side = near > far ? EdgeSide::kLeft : EdgeSide::kRight});
-      });
-    });
+    const auto found = [&](const Edge& edge) {
+      edges.push_back({.u_px = static_cast<std::int16_t>(region.u_begin_px + edge.near),
+                       .v_px = static_cast<std::int16_t>(v),
+                       .near_steps = row[edge.near],
+                       .far_steps = row[edge.far],
+                       .gap_px = static_cast<std::uint16_t>(std::abs(edge.far - edge.near)),
+                       .near_run_px = static_cast<std::uint8_t>(edge.near_run_px),
+                       .side = edge.near > edge.far ? EdgeSide::kLeft : EdgeSide::kRight,
+                       .is_open = edge.is_open});
+    };
+    for_each_change(changes_.data(), width, [&](int u) { judge.change_at(u, rejected, found); });
+    judge.end(found);
   }
 }
 

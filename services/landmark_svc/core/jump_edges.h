@@ -16,10 +16,13 @@ struct JumpEdgeParams {
   double jump_m = 0.06;              ///< and in depth
   double gap_max_px = 24.0;          ///< bad pixels bridged, at 640 px image width
   double gap_slope_quanta_px = 1.0;  ///< extra disparity asked for each bridged column
-  int near_run_px = 4;               ///< unbroken surface asked for on the near side, at most 8
+  int near_run_px = 6;               ///< unbroken surface asked for on the near side, at 640 px
+                                     ///< image width; at least 4, at most 8 pixels
   int far_run_px = 3;                ///< pixels that must stay far on the far side
   double range_min_m = 0.6;          ///< trusted depths of the near pixel
   double range_max_m = 3.81;
+  /// Whether an edge may stand before readings beyond 4095 mm, which are bad: marked is_open.
+  bool finds_open = false;
 };
 
 /// Finds occluding edges in one pass over the rows of a depth image, O(pixels).
@@ -32,6 +35,9 @@ struct JumpEdgeParams {
 ///  - the near side goes on unbroken for near_run_px: no flying pixel,
 ///  - the far side stays far for far_run_px: no speck of noise,
 ///  - the near pixel lies in the trusted range.
+///
+/// A reading beyond 4095 mm is bad, so alone it makes no edge. But it is no hole either: where
+/// finds_open is set, such edges are found and marked for who can judge them in company.
 class JumpEdgeFinder {
  public:
   /// Appends the edges inside `region` to `edges`, row by row, columns ascending; adds what was

@@ -1,8 +1,10 @@
 #include "services/landmark_svc/core/landmark_detector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "services/landmark_svc/core/automatic_range.h"
 #include "services/landmark_svc/core/landmark_pieces.h"
 #include "services/landmark_svc/core/thin_things.h"
 
@@ -56,7 +58,7 @@ DetectResult LandmarkDetector::detect(const RgbdFrame& frame,
 void LandmarkDetector::mark_moving(const RgbdFrame& frame,
                                    const std::optional<Pose2>& T_odom_robot) {
   if (!T_odom_robot || !floor_) {
-    moving_.clear();
+    forget_motion();
     return;
   }
   moving_.update(frame.utime, *T_odom_robot, scan_, frame.depth_camera, frame.depth.width_px,
@@ -64,8 +66,11 @@ void LandmarkDetector::mark_moving(const RgbdFrame& frame,
   for (Landmark& landmark : landmarks_) {
     const Eigen::Vector2d p_m = landmark.range_m * Eigen::Vector2d(std::cos(landmark.bearing_rad),
                                                                    std::sin(landmark.bearing_rad));
-    landmark.is_moving = moving_.covers(p_m, params_.moving);
+    landmark.is_moving =
+        moving_.covers(p_m, params_.moving) ||
+        !standing_.has_stood(frame.utime, *T_odom_robot, landmark, params_.standing);
   }
+  standing_.remember(frame.utime, *T_odom_robot, landmarks_);
 }
 
 void LandmarkDetector::find_edges(const RgbdFrame& frame) {
@@ -76,14 +81,29 @@ void LandmarkDetector::find_edges(const RgbdFrame& frame) {
   rejected_.clear();
   const PixelRectangle region =
       region_of_interest(params_.region, frame.depth.width_px, frame.depth.height_px);
+  range_max_m_ = range_max_of(frame.depth, region);
   if (params_.is_thesis()) {
+    SlopeEdgeParams slope = params_.slope;
+    slope.range_max_m = range_max_m_;
     alpha_ratio_ =
         color_.available() ? color_weight_ratio(params_.color, mean_luma_levels(frame.color)) : 0.0;
-    slope_finder_.find(frame.depth, table_, color_, region, params_.slope, params_.color,
-                       alpha_ratio_, edges_, rejected_);
+    slope_finder_.find(frame.depth, table_, color_, region, slope, params_.color, alpha_ratio_,
+                       edges_, rejected_);
   } else {
-    jump_finder_.find(frame.depth, table_, region, params_.jump, edges_, rejected_);
+    JumpEdgeParams jump = params_.jump;
+    jump.range_max_m = range_max_m_;
+    jump_finder_.find(frame.depth, table_, region, jump, edges_, rejected_);
   }
+}
+
+double LandmarkDetector::range_min_m() const {
+  return params_.is_thesis() ? params_.slope.range_min_m : params_.jump.range_min_m;
+}
+
+double LandmarkDetector::range_max_of(const DepthImage& depth, const PixelRectangle& region) const {
+  const double most_m = params_.is_thesis() ? params_.slope.range_max_m : params_.jump.range_max_m;
+  if (!params_.range_is_automatic) return most_m;
+  return std::min(most_m, automatic_range_m(depth, table_, region).value_or(most_m));
 }
 
 void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
@@ -113,18 +133,22 @@ void LandmarkDetector::find_creases(const RgbdFrame& frame) {
 void LandmarkDetector::find_chains(const RgbdFrame& frame) {
   const DepthImage& depth = frame.depth;
   linker_.link(edges_, table_, depth.width_px, depth.height_px, params_.chain);
+  linker_.prove_open_edges(edges_, table_, depth.width_px, depth.height_px, params_.chain);
   const ChainEstimator::Scene scene{depth,  frame.depth_camera, frame.T_robot_camera, table_,
                                     color_, params_.color};
   const double bend_max_px = params_.chain.bend_max_px * depth.width_px / 640.0;
+  const auto is_open = [](const EdgePixel& edge) { return edge.is_open; };
   const auto rows_min =
       static_cast<std::size_t>(params_.estimate.rows_min_px * depth.height_px / 480.0);
   for (const EdgeChain& chain : linker_.chains()) {
     linker_.collect(chain, edges_, chain_pixels_);
+    std::erase_if(chain_pixels_, is_open);
     split_at_bends(chain_pixels_, bend_max_px, rows_min, pieces_);
     for (const ChainPiece& piece : pieces_) {
       try_chain(scene, std::span(chain_pixels_).subspan(piece.begin, piece.end - piece.begin));
     }
   }
+  std::erase_if(edges_, is_open);
 }
 
 void LandmarkDetector::try_chain(const ChainEstimator::Scene& scene,
@@ -153,6 +177,7 @@ void LandmarkDetector::reserve(const DepthImage& depth) {
   scan_.reserve(depth.width_px);
   crease_finder_.reserve(columns);
   moving_.reserve(depth.width_px);
+  standing_.reserve(static_cast<std::size_t>(params_.landmarks_max));
 }
 
 }  // namespace roomwise::landmark

@@ -16,6 +16,7 @@
 #include "services/landmark_svc/core/moving_mask.h"
 #include "services/landmark_svc/core/reject_counts.h"
 #include "services/landmark_svc/core/slope_edges.h"
+#include "services/landmark_svc/core/standing.h"
 #include "services/landmark_svc/core/virtual_scan.h"
 
 namespace roomwise::landmark {
@@ -41,13 +42,17 @@ class LandmarkDetector {
   explicit LandmarkDetector(const LandmarkParams& params);
 
   /// Replaces the results below by those of `frame`. On anything but kOk they are as they were.
-  /// With the robot's pose by the odometry at the frame's time, what moves is found and marked;
+  /// With the robot's pose by the odometry at the frame's time, what moves, or has not been seen to
+  /// stand still for a moment, is marked;
   /// without, nothing is, and what earlier frames showed is forgotten.
   DetectResult detect(const RgbdFrame& frame,
                       const std::optional<Pose2>& T_odom_robot = std::nullopt);
 
   /// Forgets where earlier frames were seen from: the odometry started anew.
-  void forget_motion() { moving_.clear(); }
+  void forget_motion() {
+    moving_.clear();
+    standing_.clear();
+  }
 
   /// From left to right.
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -62,6 +67,10 @@ class LandmarkDetector {
   /// Weight of colour in force on this frame; depth's is 1 - alpha. 0 for method "disparity".
   double alpha_ratio() const { return alpha_ratio_; }
 
+  /// Trusted depths of an edge's near side in force on this frame.
+  double range_min_m() const;
+  double range_max_m() const { return range_max_m_; }
+
   const LandmarkParams& params() const { return params_; }
 
   /// The first stage alone, for benchmarks: edges of a frame detect() would accept.
@@ -69,6 +78,7 @@ class LandmarkDetector {
 
  private:
   void reserve(const DepthImage& depth);
+  double range_max_of(const DepthImage& depth, const PixelRectangle& region) const;
   void find_landmarks(const RgbdFrame& frame);
   void find_chains(const RgbdFrame& frame);
   void find_creases(const RgbdFrame& frame);
@@ -84,9 +94,11 @@ class LandmarkDetector {
   ChainEstimator estimator_;
   VirtualScan scan_;
   MovingMask moving_;
+  Standing standing_;
   CreaseFinder crease_finder_;
   std::optional<FloorView> floor_;
   double alpha_ratio_ = 0.0;
+  double range_max_m_ = 0.0;
   std::vector<EdgePixel> edges_;
   std::vector<EdgePixel> chain_pixels_;
   std::vector<ChainPiece> pieces_;

@@ -10,6 +10,7 @@
 #include "services/landmark_svc/core/moving_mask.h"
 #include "services/landmark_svc/core/region_of_interest.h"
 #include "services/landmark_svc/core/slope_edges.h"
+#include "services/landmark_svc/core/standing.h"
 
 namespace roomwise::landmark {
 
@@ -19,12 +20,13 @@ struct LandmarkParams {
   bool use_color = true;                   ///< false: colour is not even decoded
   double baseline_m = 0.075;               ///< projector to camera
   double disparity_focal_px = 585.0;       ///< focal length of the sensor's 640 px matching grid
+  bool range_is_automatic = false;         ///< farthest range from each frame's histogram of depths
   int landmarks_max = 64;                  ///< a frame, best scored first
   double join_gate_mahalanobis_sq = 9.21;  ///< chi-square, 2 degrees of freedom, 99 %
   double thin_width_max_m = 0.25;          ///< two edges nearer to each other make one pole
   int edge_pixels_listed_max = 4000;       ///< in the message, evenly thinned; all are counted
   RegionParams region;
-  JumpEdgeParams jump;
+  JumpEdgeParams jump{.finds_open = true};
   SlopeEdgeParams slope;
   ColorWeightParams color;
   ChainParams chain;
@@ -32,6 +34,7 @@ struct LandmarkParams {
   VirtualScanParams scan;
   CreaseParams crease;
   MovingParams moving;
+  StandingParams standing;
 
   bool is_thesis() const { return method == "thesis"; }
   /// 8 f b: disparity in quanta times depth in metres.
@@ -43,6 +46,7 @@ struct LandmarkParams {
     field("use_color", use_color);
     field("baseline_m", baseline_m, 0.01, 0.5);
     field("disparity_focal_px", disparity_focal_px, 50.0, 5000.0);
+    field("range_is_automatic", range_is_automatic);
     field("landmarks_max", landmarks_max, 0, 200);
     field("join_gate_mahalanobis_sq", join_gate_mahalanobis_sq, 0.0, 100.0);
     field("edge_pixels_listed_max", edge_pixels_listed_max, 0, 8000);
@@ -66,6 +70,7 @@ struct LandmarkParams {
     field("gap_slope_quanta_px", jump.gap_slope_quanta_px, 0.0, 100.0);
     field("near_run_px", jump.near_run_px, 2, kNearRunMax_px);
     field("far_run_px", jump.far_run_px, 1, 100);
+    field("finds_open", jump.finds_open);
     field("range_min_m", jump.range_min_m, 0.0, 4.095);
     field("range_max_m", jump.range_max_m, 0.0, 4.095);
     field("threshold_mm_per_px", slope.threshold_mm_per_px, 0.0, 10000.0);
@@ -83,6 +88,7 @@ struct LandmarkParams {
     field("depth_step_m", chain.depth_step_m, 0.0, 1.0);
     field("depth_step_per_m_m2", chain.depth_step_per_m_m2, 0.0, 1.0);
     field("row_gap_max_px", chain.row_gap_max_px, 0, 100);
+    field("proof_rows_px", chain.proof_rows_px, 0, 480);
     field("bend_max_px", chain.bend_max_px, 0.5, 64.0);
     field("rows_min_px", estimate.rows_min_px, 3.0, 480.0);
     field("height_span_min_m", estimate.height_span_min_m, 0.0, 3.0);
@@ -109,7 +115,10 @@ struct LandmarkParams {
     field("crease_side_min_m", crease.side_min_m, 0.01, 2.0);
     field("crease_side_max_m", crease.side_max_m, 0.01, 2.0);
     field("crease_angle_min_rad", crease.angle_min_rad, 0.1, 1.5);
+    field("crease_residual_max_quanta", crease.residual_max_quanta, 1e-3, 10.0);
     field("crease_residual_max_m", crease.residual_max_m, 1e-4, 1.0);
+    field("crease_bend_min_sigmas", crease.bend_min_sigmas, 0.0, 100.0);
+    field("crease_round_better_ratio", crease.round_better_ratio, 0.0, 10.0);
     field("crease_off_scan_max_m", crease.off_scan_max_m, 1e-3, 1.0);
     field("crease_suppress_px", crease.suppress_px, 0.0, 640.0);
     field("crease_position_bias_m", crease.position_bias_m, 1e-4, 1.0);
@@ -119,6 +128,10 @@ struct LandmarkParams {
     field("moving_unseen_free_m", moving.unseen_free_m, 0.0, 5.0);
     field("moving_width_min_m", moving.width_min_m, 0.0, 2.0);
     field("moving_reach_m", moving.reach_m, 0.0, 2.0);
+    field("standing_age_min_s", standing.age_min_s, 0.0, 1.0);
+    field("standing_age_max_s", standing.age_max_s, 0.0, 10.0);
+    field("standing_reach_m", standing.reach_m, 0.0, 1.0);
+    field("standing_reach_ratio", standing.reach_ratio, 0.0, 1.0);
   }
 };
 

@@ -67,5 +67,36 @@ TEST(EdgeChains, PartAtADepthJumpAWideStepOrALongPause) {
   EXPECT_EQ(chains_of({pixel(100, 0), pixel(100, 1, 2000, EdgeSide::kRight)}).size(), 2u);
 }
 
+std::size_t open_edges(std::vector<EdgePixel> edges) {
+  DisparityTable table;
+  table.prepare(0.001, 351.0);
+  ChainLinker linker;
+  linker.link(edges, table, 640, 480, {});
+  linker.prove_open_edges(edges, table, 640, 480, {});
+  return static_cast<std::size_t>(std::count_if(
+      edges.begin(), edges.end(), [](const EdgePixel& edge) { return edge.is_open; }));
+}
+
+/// A door post: rows before what is too far, then `measured` rows before the floor.
+std::vector<EdgePixel> post(int measured, int measured_u, int measured_mm, EdgeSide side) {
+  std::vector<EdgePixel> edges;
+  for (int v = 0; v < 100; ++v) {
+    edges.push_back(pixel(300, v));
+    edges.back().is_open = true;
+  }
+  for (int v = 120; v < 120 + measured; ++v)
+    edges.push_back(pixel(measured_u, v, measured_mm, side));
+  return edges;
+}
+
+TEST(EdgeChains, OpenEdgesNeedMeasuredOnesAtTheirFoot) {
+  EXPECT_EQ(open_edges(post(10, 301, 2020, EdgeSide::kLeft)), 0u);
+  EXPECT_EQ(open_edges(post(0, 301, 2020, EdgeSide::kLeft)), 100u);
+  EXPECT_EQ(open_edges(post(3, 301, 2020, EdgeSide::kLeft)), 100u);    // too few
+  EXPECT_EQ(open_edges(post(10, 320, 2020, EdgeSide::kLeft)), 100u);   // elsewhere
+  EXPECT_EQ(open_edges(post(10, 301, 2500, EdgeSide::kLeft)), 100u);   // another thing
+  EXPECT_EQ(open_edges(post(10, 301, 2020, EdgeSide::kRight)), 100u);  // its other side
+}
+
 }  // namespace
 }  // namespace roomwise::landmark

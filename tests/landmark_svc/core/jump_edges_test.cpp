@@ -184,6 +184,46 @@ TEST(JumpEdges, BadDataAloneIsNoEdge) {
   EXPECT_TRUE(find(image_of(runs({{20, 1500}, {20, 4096}}))).edges.empty());
 }
 
+JumpEdgeParams with_open_edges() {
+  JumpEdgeParams params;
+  params.finds_open = true;
+  return params;
+}
+
+TEST(JumpEdges, BeforeReadingsBeyondStandOpenEdges) {
+  const auto found = find(image_of(runs({{20, 1500}, {20, 6000}, {20, 1700}})), with_open_edges());
+  ASSERT_EQ(found.edges.size(), 2u);
+  EXPECT_EQ(found.edges[0].u_px, 19);
+  EXPECT_EQ(found.edges[0].side, EdgeSide::kRight);
+  EXPECT_EQ(found.edges[1].u_px, 40);
+  EXPECT_EQ(found.edges[1].side, EdgeSide::kLeft);
+  for (const EdgePixel& edge : found.edges) EXPECT_TRUE(edge.is_open);
+}
+
+TEST(JumpEdges, AShadowBeforeReadingsBeyondIsBridged) {
+  Row row = runs({{20, 1500}, {2, 0}, {20, 6000}});
+  row.resize(640, 0);
+  const auto found = find(image_of(row), with_open_edges());
+  ASSERT_EQ(found.edges.size(), 1u);
+  EXPECT_EQ(found.edges[0].u_px, 19);
+  EXPECT_EQ(found.edges[0].gap_px, 3);
+}
+
+TEST(JumpEdges, HolesAndAMeasuredFarSideMakeNoOpenEdge) {
+  EXPECT_TRUE(find(image_of(runs({{20, 1500}, {20, 0}})), with_open_edges()).edges.empty());
+  EXPECT_TRUE(find(image_of(runs({{20, 1500}, {20, 65535}})), with_open_edges()).edges.empty());
+  const auto found = find(image_of(runs({{20, 1500}, {1, 6000}, {20, 2500}})), with_open_edges());
+  for (const EdgePixel& edge : found.edges) EXPECT_FALSE(edge.is_open);
+}
+
+RC_GTEST_PROP(JumpEdges, OpenEdgesAreAddedAndTakeNoneAway, ()) {
+  const Row row = random_row(200);
+  auto found = find(image_of(row), with_open_edges()).edges;
+  for (std::size_t i = 1; i < found.size(); ++i) RC_ASSERT(found[i - 1].u_px <= found[i].u_px);
+  std::erase_if(found, [](const EdgePixel& edge) { return edge.is_open; });
+  RC_ASSERT(found == find(image_of(row)).edges);
+}
+
 TEST(JumpEdges, OnlyTheRegionIsSeen) {
   const auto row = runs({{20, 3000}, {20, 1500}, {20, 3000}});
   RegionParams right;

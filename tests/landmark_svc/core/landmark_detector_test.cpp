@@ -339,6 +339,7 @@ TEST(LandmarkDetector, MaximumClutterStaysWithinItsBudget) {
     frame.depth.steps[i] = i % 8 < 4 ? std::uint16_t{1000} : std::uint16_t{3000};
   }
   LandmarkParams params;
+  params.jump.near_run_px = 4;  // as short as anything can be
   params.landmarks_max = 2;
   LandmarkDetector detector(params);
   ASSERT_EQ(detector.detect(frame), DetectResult::kOk);

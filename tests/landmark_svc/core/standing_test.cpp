@@ -1,0 +1,78 @@
+#include "services/landmark_svc/core/standing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace roomwise::landmark {
+namespace {
+
+constexpr std::int64_t kFrame_us = 33'333;
+
+Landmark at(double x_m, double y_m, LandmarkKind kind = LandmarkKind::kEdgeLeft) {
+  Landmark landmark;
+  landmark.kind = kind;
+  landmark.range_m = std::hypot(x_m, y_m);
+  landmark.bearing_rad = std::atan2(y_m, x_m);
+  return landmark;
+}
+
+/// Whether what walks sideways at `speed_mps` is said to have stood, in the last of ten frames.
+bool stands(double speed_mps, double range_m) {
+  Standing standing;
+  for (int i = 0; i < 10; ++i) {
+    const double y_m = -0.3 + 1e-6 * speed_mps * static_cast<double>(i * kFrame_us);
+    standing.remember(i * kFrame_us, {}, {at(range_m, y_m)});
+  }
+  const double y_m = -0.3 + 1e-6 * speed_mps * static_cast<double>(10 * kFrame_us);
+  return standing.has_stood(10 * kFrame_us, {}, at(range_m, y_m), {});
+}
+
+TEST(Standing, TellsWhoWalksFromWhatStands) {
+  for (const double range_m : {1.0, 2.0, 3.0}) {
+    EXPECT_TRUE(stands(0.0, range_m));
+    for (const double speed_mps : {-1.2, -0.64, 0.64, 1.2}) {
+      EXPECT_FALSE(stands(speed_mps, range_m)) << speed_mps << " " << range_m;
+    }
+  }
+}
+
+TEST(Standing, FollowsTheRobotsOwnMotion) {
+  Standing standing;
+  const Eigen::Vector2d post_m(2.5, 0.4);
+  for (int i = 0; i < 10; ++i) {
+    const Pose2 pose{0.02 * i, 0.0, 0.01 * i};
+    const Eigen::Vector2d seen_m = transform(inverse(pose), post_m);
+    const Landmark landmark = at(seen_m.x(), seen_m.y());
+    EXPECT_TRUE(standing.has_stood(i * kFrame_us, pose, landmark, {})) << i;
+    standing.remember(i * kFrame_us, pose, {landmark});
+  }
+}
+
+TEST(Standing, WhatHasJustComeIsNotYetKnownToStand) {
+  Standing standing;
+  for (int i = 0; i < 10; ++i) standing.remember(i * kFrame_us, {}, {at(2.0, 0.0)});
+  EXPECT_FALSE(standing.has_stood(10 * kFrame_us, {}, at(2.0, 0.5), {}));
+  for (int i = 10; i < 16; ++i) standing.remember(i * kFrame_us, {}, {at(2.0, 0.5)});
+  EXPECT_TRUE(standing.has_stood(16 * kFrame_us, {}, at(2.0, 0.5), {}));
+}
+
+TEST(Standing, AnotherKindIsNoProof) {
+  Standing standing;
+  for (int i = 0; i < 10; ++i) standing.remember(i * kFrame_us, {}, {at(2.0, 0.0)});
+  EXPECT_FALSE(standing.has_stood(10 * kFrame_us, {}, at(2.0, 0.0, LandmarkKind::kEdgeRight), {}));
+}
+
+TEST(Standing, SaysNothingWithoutAMemory) {
+  Standing standing;
+  EXPECT_TRUE(standing.has_stood(0, {}, at(2.0, 0.0), {}));
+  for (int i = 0; i < 3; ++i) standing.remember(i * kFrame_us, {}, {});
+  EXPECT_TRUE(standing.has_stood(3 * kFrame_us, {}, at(2.0, 0.0), {}));  // nothing is old enough
+  for (int i = 3; i < 9; ++i) standing.remember(i * kFrame_us, {}, {});
+  EXPECT_FALSE(standing.has_stood(9 * kFrame_us, {}, at(2.0, 0.0), {}));
+  standing.remember(0, {}, {});  // time went back
+  EXPECT_TRUE(standing.has_stood(kFrame_us, {}, at(2.0, 0.0), {}));
+}
+
+}  // namespace
+}  // namespace roomwise::landmark
