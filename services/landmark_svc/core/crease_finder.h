@@ -22,7 +22,7 @@ struct CreaseParams {
   double round_better_ratio = 1.5;  ///< a circle's RMS, of the two lines', from which on it is none
   double off_scan_max_m = 0.03;     ///< from the lines' crossing to the scan
   double suppress_px = 14.0;        ///< one crease within so many columns, at 640 px image width
-  double position_bias_m = 0.010;   ///< sigma of what does not average out
+  double position_bias_m = 0.003;   ///< sigma of what does not average out
 };
 
 /// Finds creases in a virtual scan: a line (ScanLines) to either side of each point, O(points) by
