@@ -6,7 +6,7 @@
 namespace roomwise::landmark {
 namespace {
 
-constexpr std::int64_t kStale_us = 5'000'000;
+constexpr std::int64_t kForgetAfter_us = 5'000'000;
 
 Eigen::Vector2d in_odom_m(const Pose2& T_odom_robot, const Landmark& landmark) {
   return transform(T_odom_robot,
@@ -49,7 +49,7 @@ bool Standing::has_stood(std::int64_t utime, const Pose2& T_odom_robot, const La
 void Standing::remember(std::int64_t utime, const Pose2& T_odom_robot,
                         const std::vector<Landmark>& landmarks) {
   const std::int64_t newest = known_ > 0 ? past_[(next_ + kFrames - 1) % kFrames].utime : utime;
-  if (utime < newest || utime > newest + kStale_us) clear();
+  if (utime < newest || utime > newest + kForgetAfter_us) clear();
   Past& past = past_[next_];
   past.utime = utime;
   past.seen.clear();
