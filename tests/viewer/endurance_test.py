@@ -100,7 +100,9 @@ class Endurance(RunningViewer):
         self.assert_as_before(before)
         self.player.end()
         time.sleep(0.5)  # the logger writes what it heard last
-        self.assertEqual(self.messages()["KINECT_FRAME"], SAMPLE_FRAMES * self.player.passes)
+        # Datagrams: on a busy machine one in hundreds is lost, whoever listens.
+        played = SAMPLE_FRAMES * self.player.passes
+        self.assertGreater(self.messages()["KINECT_FRAME"], 0.99 * played)
 
 
 if __name__ == "__main__":

@@ -164,7 +164,7 @@ TEST(EstopLatch, IsResetByItsOwnIdWhenAllIsCalm) {
   EXPECT_EQ(latch.reset(kStart, 0, true), ResetResult::kNotLatched);
   latch.press(kStart, false);
   const std::int64_t id = latch.latch_id();
-  EXPECT_GT(id, 0);
+  EXPECT_EQ(id, utime_of(kStart.wall)) << "of the clock: none from before a restart";
   EXPECT_EQ(latch.reset(kStart, id + 1, true), ResetResult::kOtherLatch);
   EXPECT_EQ(latch.reset(kStart, id, false), ResetResult::kNotCalm);
   EXPECT_TRUE(latch.is_latched());

@@ -163,10 +163,22 @@ TEST(Driving, ACliffStopsAllButTheWayBack) {
   drive.ask(0.3, 0.0);
   drive.run(seconds(4));
   drive.body.cliff = true;
-  EXPECT_EQ(drive.step().first, Reason::kCliff);
   EXPECT_EQ(drive.run(milliseconds(200)).first, Reason::kCliff);
   drive.body.cliff = false;
   EXPECT_EQ(drive.run(milliseconds(200)).first, Reason::kDropOff);
+}
+
+TEST(Driving, WhatWasFeltForAMomentIsRemembered) {
+  for (const auto& [felt, why] : std::vector<std::pair<bool BodyState::*, Reason>>{
+           {&BodyState::bump, Reason::kRemembered}, {&BodyState::cliff, Reason::kDropOff}}) {
+    DrivenWorld drive;
+    drive.ask(0.3, 0.0);
+    drive.run(seconds(4));
+    drive.body.*felt = true;
+    drive.step();  // one message
+    drive.body.*felt = false;
+    EXPECT_EQ(drive.run(milliseconds(200)).first, why);
+  }
 }
 
 TEST(Driving, TheRobotsSensorsStopIt) {

@@ -102,6 +102,29 @@ TEST(OdometryTrack, KnowsWhereItWasAndWhereItIs) {
   EXPECT_DOUBLE_EQ(track.speed_mps(), 0.2);
 }
 
+TEST(OdometryTrack, BetweenSamplesItTurnsTheShortWay) {
+  OdometryTrack track;
+  OdometrySample before = sample_at(milliseconds(0), 0.0, 0.0);
+  OdometrySample after = sample_at(milliseconds(100), 0.0, 0.0);
+  before.T_odom_robot.heading_rad = M_PI - 0.1;
+  after.T_odom_robot.heading_rad = 0.2 - M_PI;
+  ASSERT_EQ(track.add(kStart, before), OdometryResult::kStartedAnew);
+  ASSERT_EQ(track.add(later(milliseconds(100)), after), OdometryResult::kUsed);
+  EXPECT_NEAR(track.pose_at(kStart.wall + milliseconds(20))->heading_rad, M_PI - 0.04, 1e-12);
+  EXPECT_NEAR(track.pose_at(kStart.wall + milliseconds(50))->heading_rad, 0.05 - M_PI, 1e-12);
+}
+
+TEST(OdometryTrack, PastTheNewestItGoesOnAlongTheChord) {
+  OdometryTrack track;
+  OdometrySample sample = sample_at(milliseconds(0), 0.0, 0.05);
+  sample.turn_rad = 0.1;
+  ASSERT_EQ(track.add(kStart, sample), OdometryResult::kStartedAnew);
+  const Pose2 pose = *track.pose_at(kStart.wall + milliseconds(100));
+  EXPECT_NEAR(pose.x_m, 0.05 * std::cos(0.05), 1e-12);
+  EXPECT_NEAR(pose.y_m, 0.05 * std::sin(0.05), 1e-12);
+  EXPECT_NEAR(pose.heading_rad, 0.1, 1e-12);
+}
+
 TEST(OdometryTrack, RefusesWhatNoCreateDoes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto result = [](auto change) {
@@ -327,6 +350,24 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
     v.free_range_m = v.unknown_ratio = many;
     v.bearing_step_rad = 1e-4;
   }));
+}
+
+TEST(ObstacleMemory, OverlooksWhatIsUnknownInACircleAndNothingElse) {
+  ObstacleMemory memory;
+  memory.overlook_round(kStart, {}, 0.45);
+  EXPECT_EQ(memory.at(kStart, {0.0, -0.4}).ground, Ground::kOverlooked);
+  EXPECT_EQ(memory.at(kStart, {-0.42, -0.42}).ground, Ground::kUnknown) << "a corner of the square";
+  ASSERT_TRUE(memory.see(kStart, {-1.0, 0.0, 0.0}, UniformView(2.0, 0.1).view()));
+  ASSERT_EQ(memory.at(kStart, {0.3, 0.0}).ground, Ground::kFree);
+  memory.overlook_round(kStart, {}, 0.45);
+  EXPECT_EQ(memory.at(kStart, {0.3, 0.0}).ground, Ground::kFree);
+}
+
+TEST(SweptCorridor, SaysHowMuchOfItIsUnknown) {
+  ObstacleMemory memory;
+  EXPECT_EQ(sweep(kStart, memory, {}, 0.0, 0.5, {}).unknown_ratio, 1.0);
+  ASSERT_TRUE(memory.see(kStart, {-1.0, 0.0, 0.0}, UniformView(2.0, 0.1).view()));
+  EXPECT_LT(sweep(kStart, memory, {}, 0.0, 0.5, {}).unknown_ratio, 0.01);
 }
 
 TEST(SweptCorridor, OfNoLengthNothingIsUnknown) {
