@@ -12,8 +12,8 @@
 #include "logs/tools/log_replay.h"
 #include "logs/tools/subcommands.h"
 #include "logs/tools/whole_file.h"
+#include "services/segment_svc/core/color/model_text.h"
 #include "services/segment_svc/core/labels.h"
-#include "services/segment_svc/core/model_text.h"
 
 namespace roomwise {
 namespace {
@@ -66,18 +66,19 @@ std::string_view reason_of(segment::TrainingFault fault) {
     case segment::TrainingFault::kClassMissing:
       return "obstacle, wall and accessible need a rectangle each";
     case segment::TrainingFault::kTooFewPixels:
-      return "a class has fewer than two pixels";
+      return "a class has fewer than ten pixels";
     case segment::TrainingFault::kClassesAlike:
       return "two classes have the same statistics: nothing tells them apart";
   }
   return "training failed";
 }
 
-void print(const segment::GreyClassifier::Gaussians& gaussians) {
+void print(const segment::ColorModel& model) {
   constexpr std::array<std::string_view, 3> kNames = {"obstacle", "wall", "accessible"};
-  for (std::size_t k = 0; k < gaussians.size(); ++k) {
-    fmt::print("{} mean_levels {:.3f} sigma_levels {:.3f}\n", kNames[k], gaussians[k].mean_levels,
-               gaussians[k].sigma_levels);
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    fmt::print("{} mean_levels {:.3f} sigma_levels {:.3f} parts {}\n", kNames[k],
+               model.grey[k].mean_levels, model.grey[k].sigma_levels,
+               model.mixtures[k].parts().size());
   }
 }
 
@@ -104,21 +105,21 @@ segment::TrainingRectangle rectangle_of(std::string_view text) {
           .height_px = *fields[4]};
 }
 
-segment::GreyClassifier::Gaussians train_model(const Training& training) {
+segment::ColorModel train_model(const Training& training) {
   std::vector<segment::TrainingRectangle> rectangles;
   for (const std::string& text : training.rectangles) rectangles.push_back(rectangle_of(text));
-  const auto learned = segment::train(find_color(training), rectangles, training.statistics);
+  auto learned = segment::train(find_color(training), rectangles, training.statistics);
   if (const auto* fault = std::get_if<segment::TrainingFault>(&learned)) {
     refuse(training.log, reason_of(*fault));
   }
-  const auto& gaussians = std::get<segment::GreyClassifier::Gaussians>(learned);
-  write_whole_file(training.model, segment::format_model(gaussians));
-  return gaussians;
+  auto model = std::get<segment::ColorModel>(std::move(learned));
+  write_whole_file(training.model, segment::format_model(model));
+  return model;
 }
 
 void add_train(CLI::App& parent) {
-  CLI::App& command =
-      *parent.add_subcommand("train", "Teaches segment_svc's grey Gaussians from rectangles.");
+  CLI::App& command = *parent.add_subcommand(
+      "train", "Teaches segment_svc how obstacles, walls and floor look, from rectangles.");
   const auto training = std::make_shared<Training>();
   command.add_option("LOG", training->log, "log with KINECT_FRAME in colour")->required();
   auto* which = command.add_option_group("frame", "which frame the rectangles lie on");

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "services/segment_svc/core/grey_gaussians.h"
-#include "services/segment_svc/core/training.h"
+#include "services/segment_svc/core/color/color_model.h"
+#include "services/segment_svc/core/color/training.h"
 
 namespace roomwise {
 
@@ -27,6 +27,6 @@ segment::TrainingRectangle rectangle_of(std::string_view text);
 
 /// Learns a model for segment_svc from rectangles on a frame of a log, and writes it, whole or not
 /// at all. Throws std::runtime_error with the reason, naming the log or the file.
-segment::GreyClassifier::Gaussians train_model(const Training& training);
+segment::ColorModel train_model(const Training& training);
 
 }  // namespace roomwise

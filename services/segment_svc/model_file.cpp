@@ -12,7 +12,7 @@
 #include <string>
 #include <variant>
 
-#include "services/segment_svc/core/model_text.h"
+#include "services/segment_svc/core/color/model_text.h"
 
 namespace roomwise::segment {
 namespace {
@@ -34,18 +34,18 @@ void write_and_flush(const std::filesystem::path& path, const std::string& text)
 
 }  // namespace
 
-GreyClassifier::Gaussians load_model(const std::filesystem::path& path) {
+ColorModel load_model(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(path, "cannot read the model");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto model = parse_model(text);
+  auto model = parse_model(text);
   if (const auto* fault = std::get_if<ModelFault>(&model)) refuse(path, reason_of(*fault));
-  return std::get<GreyClassifier::Gaussians>(model);
+  return std::get<ColorModel>(std::move(model));
 }
 
-void save_model(const std::filesystem::path& path, const GreyClassifier::Gaussians& gaussians) {
+void save_model(const std::filesystem::path& path, const ColorModel& model) {
   const std::filesystem::path unfinished = path.string() + ".part";
-  write_and_flush(unfinished, format_model(gaussians));
+  write_and_flush(unfinished, format_model(model));
   if (::rename(unfinished.c_str(), path.c_str()) != 0) refuse(path, std::strerror(errno));
 }
 

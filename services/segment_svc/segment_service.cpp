@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "services/segment_svc/core/training.h"
+#include "services/segment_svc/core/color/training.h"
 #include "services/segment_svc/model_file.h"
 
 namespace roomwise {
@@ -61,11 +61,11 @@ void fill_bearings(const std::array<segment::BearingBin, segment::FreeRange::kBi
 SegmentService::SegmentService(Bus& bus, const Params& params)
     : bus_(bus),
       params_(params),
-      decoder_(params.model == "gaussian" ? ColorUse::kDecode : ColorUse::kSkip),
+      decoder_(params.model == "geometry" ? ColorUse::kSkip : ColorUse::kDecode),
       colors_(kColorMemory_bytes),
       segmenter_(params) {
   if (!params_.model_path.empty() && std::filesystem::exists(params_.model_path)) {
-    segmenter_.set_classifier(segment::GreyClassifier(segment::load_model(params_.model_path)));
+    segmenter_.learn(segment::load_model(params_.model_path));
   }
   bus_.subscribe(
       channels::kKinectFrame, [this](const kinect_frame_t& m) { on_frame(m); }, Delivery::kLatest);
@@ -95,15 +95,15 @@ void SegmentService::on_training(const segment_training_t& message) {
   if (const auto* fault = std::get_if<segment::TrainingFault>(&learned)) {
     return bus_.count(name_of(*fault));
   }
-  learn(std::get<segment::GreyClassifier::Gaussians>(learned));
+  learn(std::get<segment::ColorModel>(learned));
 }
 
-void SegmentService::learn(const segment::GreyClassifier::Gaussians& gaussians) {
-  segmenter_.set_classifier(segment::GreyClassifier(gaussians));
+void SegmentService::learn(const segment::ColorModel& taught) {
+  segmenter_.learn(taught);
   bus_.count("training_learned");
   if (params_.model_path.empty() || bus_.is_replay()) return;
   try {
-    segment::save_model(params_.model_path, gaussians);
+    segment::save_model(params_.model_path, taught);
   } catch (const std::runtime_error& error) {  // a full disk is no reason to stop looking
     bus_.count("model_not_saved");
     bus_.note_error(error.what());

@@ -20,7 +20,7 @@ class SegmentService {
  private:
   void on_frame(const kinect_frame_t& message);
   void on_training(const segment_training_t& message);
-  void learn(const segment::GreyClassifier::Gaussians& gaussians);
+  void learn(const segment::ColorModel& taught);
   void fill_message();
 
   Bus& bus_;

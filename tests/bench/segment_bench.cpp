@@ -5,8 +5,8 @@
 #include <opencv2/ml.hpp>
 #include <vector>
 
-#include "services/segment_svc/core/color_table.h"
-#include "services/segment_svc/core/mixture.h"
+#include "services/segment_svc/core/color/color_table.h"
+#include "services/segment_svc/core/color/mixture.h"
 #include "services/segment_svc/core/segmenter.h"
 #include "tests/support/synthetic_room.h"
 
@@ -82,10 +82,14 @@ BENCHMARK(opencv_training)->Name("mixture/opencv/train")->Unit(benchmark::kMilli
 
 void our_classification(benchmark::State& state) {
   const auto mixture = *roomwise::segment::fit_mixture(samples(), kParts);
-  const roomwise::segment::ColorTable table({mixture, mixture, mixture}, -50.0);
+  const roomwise::segment::ColorTable table({mixture, mixture, mixture});
   std::vector<std::uint8_t> labels(frame().depth.size());
   for (auto _ : state) {
-    table.classify(frame().color, labels);
+    const std::uint8_t* rgb = frame().color.rgb.data();
+    for (std::uint8_t& label : labels) {
+      label = table.classify(rgb);
+      rgb += 3;
+    }
     benchmark::DoNotOptimize(labels.data());
   }
 }

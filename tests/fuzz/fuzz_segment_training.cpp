@@ -1,12 +1,12 @@
-// SEGMENT_TRAIN with any rectangles on a small image: refused by name, or Gaussians that a model
+// SEGMENT_TRAIN with any rectangles on a small image: refused by name, or a model that its
 // file takes.
 #include <cstdint>
 #include <cstring>
 #include <variant>
 #include <vector>
 
-#include "services/segment_svc/core/model_text.h"
-#include "services/segment_svc/core/training.h"
+#include "services/segment_svc/core/color/model_text.h"
+#include "services/segment_svc/core/color/training.h"
 
 namespace {
 
@@ -55,8 +55,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (*name_of(*fault) == '\0') __builtin_trap();
       continue;
     }
-    const auto text = format_model(std::get<GreyClassifier::Gaussians>(learned));
-    if (!std::holds_alternative<GreyClassifier::Gaussians>(parse_model(text))) __builtin_trap();
+    const auto text = format_model(std::get<ColorModel>(learned));
+    if (!std::holds_alternative<ColorModel>(parse_model(text))) __builtin_trap();
   }
   return 0;
 }

@@ -6,12 +6,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/segment_svc/support/taught.h"
 #include "tests/support/scratch_folder.h"
 
 namespace roomwise::segment {
 namespace {
 
-const GreyClassifier::Gaussians kModel = {{{11.5, 22.5}, {108.25, 61.375}, {71.0, 51.5}}};
+const ColorModel kModel = taught_greys({{{11.5, 22.5}, {108.25, 61.375}, {71.0, 51.5}}});
 
 std::string complaint(const std::filesystem::path& path) {
   try {
@@ -28,8 +29,8 @@ TEST(ModelFile, ReadsBackWhatWasSaved) {
   save_model(path, kModel);
   save_model(path, kModel);  // over an older one
   const auto read = load_model(path);
-  EXPECT_EQ(read[1].mean_levels, 108.25);
-  EXPECT_EQ(read[2].sigma_levels, 51.5);
+  EXPECT_EQ(read.grey[1].mean_levels, 108.25);
+  EXPECT_EQ(read.grey[2].sigma_levels, 51.5);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 

@@ -11,6 +11,7 @@
 #include "common/frames/frame_encoder.h"
 #include "services/segment_svc/model_file.h"
 #include "tests/segment_svc/support/scenes.h"
+#include "tests/segment_svc/support/taught.h"
 #include "tests/support/events.h"
 #include "tests/support/scratch_folder.h"
 
@@ -201,13 +202,13 @@ TEST(SegmentService, BadTrainingIsCountedAndTheOldModelStays) {
 TEST(SegmentService, UsesTheModelFileAndAReplayLeavesItAlone) {
   const ScratchFolder folder;
   const auto path = folder.path() / "model.txt";
-  segment::save_model(path, {{{60, 5}, {195, 5}, {125, 5}}});
+  segment::save_model(path, segment::taught_greys({{{60, 5}, {195, 5}, {125, 5}}}));
   const auto size = std::filesystem::file_size(path);
   const Outcome result =
       run({event(frame_number(0)), event(training_on(0)), event(frame_number(1))}, gaussian(path));
   EXPECT_EQ(result.segments[0].model, "gaussian");
   EXPECT_EQ(std::filesystem::file_size(path), size);
-  EXPECT_EQ(segment::load_model(path)[0].mean_levels, 60.0);
+  EXPECT_EQ(segment::load_model(path).grey[0].mean_levels, 60.0);
 }
 
 TEST(SegmentService, WithoutAModelFileYetItStartsUntrained) {
@@ -219,7 +220,7 @@ TEST(SegmentService, WithoutAModelFileYetItStartsUntrained) {
 TEST(SegmentService, RefusesToStartOnADamagedModelFileByName) {
   const ScratchFolder folder;
   const auto path = folder.path() / "model.txt";
-  std::ofstream(path) << "roomwise-segment-model 1 gaussian\nclass 0";
+  std::ofstream(path) << "roomwise-segment-model 2\nclass 0";
   try {
     run({}, gaussian(path));
     FAIL() << "started";
@@ -243,7 +244,7 @@ TEST(SegmentService, LiveItWritesWhatItLearnedAndSurvivesWhenItCannot) {
   LiveBus bus(input, output);
   const SegmentService service(bus, gaussian(folder.path() / "model.txt"));
   bus.run();
-  EXPECT_GT(segment::load_model(folder.path() / "model.txt")[1].mean_levels, 150.0);
+  EXPECT_GT(segment::load_model(folder.path() / "model.txt").grey[1].mean_levels, 150.0);
 
   std::vector<LogEvent> other_output;
   LiveBus other(input, other_output);

@@ -16,4 +16,7 @@ enum Label : std::uint8_t {
 /// All labels in ascending order.
 inline constexpr std::array<Label, 5> kLabels = {kObstacle, kDropOff, kWall, kAccessible, kUnknown};
 
+/// What a person teaches with rectangles (thesis, section 4.3), in ascending order of label.
+inline constexpr std::array<Label, 3> kTrainedClasses = {kObstacle, kWall, kAccessible};
+
 }  // namespace roomwise::segment

@@ -6,9 +6,10 @@ namespace roomwise::segment {
 /// Tuning of segment_svc; services/segment_svc/params.toml may override any field.
 struct SegmentParams {
   std::string model = "geometry";  ///< how pixels are labelled
-  std::string model_path;          ///< file of the trained Gaussians; empty: kept in memory only
-  std::string training_statistics = "average";  ///< how SEGMENT_TRAIN finds mean and sigma
-  bool grey_needs_depth = true;  ///< model "gaussian" calls a pixel without a reading unknown
+  std::string model_path;          ///< file of what was taught; empty: kept in memory only
+  std::string training_statistics =
+      "average";                  ///< how the grey Gaussians' mean and sigma are found
+  bool color_needs_depth = true;  ///< colour alone does not label a pixel without a reading
 
   double baseline_m = 0.075;        ///< between projector and camera; Kinect and PrimeSense: 7.5 cm
   double range_max_m = 6.0;         ///< farther readings are unknown
@@ -27,10 +28,10 @@ struct SegmentParams {
 
   template <class Field>
   void visit_fields(Field&& field) {
-    field("model", model, {"geometry", "gaussian"});
+    field("model", model, {"geometry", "gaussian", "mixture"});
     field("model_path", model_path);
     field("training_statistics", training_statistics, {"average", "threshold"});
-    field("grey_needs_depth", grey_needs_depth);
+    field("color_needs_depth", color_needs_depth);
     field("baseline_m", baseline_m, 0.01, 0.5);
     field("range_max_m", range_max_m, 1.0, 10.0);
     field("floor_tolerance_m", floor_tolerance_m, 0.005, 0.2);

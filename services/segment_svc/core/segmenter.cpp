@@ -14,13 +14,17 @@ Segmenter::Segmenter(const SegmentParams& params)
       free_range_(params),
       corridor_(params) {}
 
+void Segmenter::learn(const ColorModel& taught) {
+  grey_.emplace(taught.grey);
+  table_.emplace(taught.mixtures);
+}
+
 void Segmenter::segment(const RgbdFrame& frame, Segmentation& result) {
   view_.prepare(frame, params_.baseline_m);
   result.floor = floor_fit_.fit(frame, view_);
   geometry_.label(frame, view_, result.floor.plane, result.labels);
   look_around(frame, result);
-  labelled_by_grey_ = params_.model == "gaussian" && classifier_ && !frame.color.empty();
-  if (labelled_by_grey_) label_by_grey(frame, result.labels);
+  model_in_force_ = label(frame, result.labels);
   result.distances = measure_distances(frame.depth, params_.range_max_m, result.labels);
 }
 
@@ -40,20 +44,33 @@ void Segmenter::look_around(const RgbdFrame& frame, Segmentation& result) {
   result.corridor = corridor_.end();
 }
 
-void Segmenter::label_by_grey(const RgbdFrame& frame, std::vector<std::uint8_t>& labels) const {
-  const ColorImage& color = frame.color;
-  std::size_t pixel = 0;
-  for (int v = 0; v < view_.height_px(); ++v) {
-    const int color_v = v * color.height_px / view_.height_px();
-    const auto row = static_cast<std::size_t>(color_v) * static_cast<std::size_t>(color.width_px);
-    for (int u = 0; u < view_.width_px(); ++u, ++pixel) {
-      if (params_.grey_needs_depth && frame.depth.steps[pixel] == 0) {
-        labels[pixel] = kUnknown;
-        continue;
-      }
-      const auto color_u = static_cast<std::size_t>(u * color.width_px / view_.width_px());
-      const std::uint8_t* rgb = color.rgb.data() + 3 * (row + color_u);
-      labels[pixel] = classifier_->classify(grey_level(rgb[0], rgb[1], rgb[2]));
+const char* Segmenter::label(const RgbdFrame& frame, std::vector<std::uint8_t>& labels) {
+  if (frame.color.empty() || !grey_) return "geometry";
+  if (params_.model == "gaussian") {
+    const auto by_grey = [&](const std::uint8_t* rgb) {
+      return grey_->classify(grey_level(rgb[0], rgb[1], rgb[2]));
+    };
+    paint(frame, by_grey, labels);
+    return "gaussian";
+  }
+  if (params_.model == "mixture") {
+    paint(
+        frame, [&](const std::uint8_t* rgb) { return table_->classify(rgb); }, labels);
+    return "mixture";
+  }
+  return "geometry";
+}
+
+template <class Classifier>
+void Segmenter::paint(const RgbdFrame& frame, const Classifier& label_of,
+                      std::vector<std::uint8_t>& labels) {
+  const auto width = static_cast<std::size_t>(view_.width_px());
+  colors_.prepare(frame.color, view_.width_px(), view_.height_px());
+  for (std::size_t v = 0, pixel = 0; pixel < labels.size(); ++v) {
+    const std::uint8_t* row = colors_.row(v);
+    for (std::size_t u = 0; u < width; ++u, ++pixel) {
+      const bool is_blind = params_.color_needs_depth && frame.depth.steps[pixel] == 0;
+      labels[pixel] = is_blind ? kUnknown : label_of(colors_.at(row, u));
     }
   }
 }

@@ -6,11 +6,14 @@
 
 #include "common/image/rgbd_frame.h"
 #include "services/segment_svc/core/camera_view.h"
+#include "services/segment_svc/core/color/color_grid.h"
+#include "services/segment_svc/core/color/color_model.h"
+#include "services/segment_svc/core/color/color_table.h"
+#include "services/segment_svc/core/color/grey_gaussians.h"
 #include "services/segment_svc/core/corridor.h"
 #include "services/segment_svc/core/floor_fit.h"
 #include "services/segment_svc/core/free_range.h"
 #include "services/segment_svc/core/geometry_labels.h"
-#include "services/segment_svc/core/grey_gaussians.h"
 #include "services/segment_svc/core/ground_rows.h"
 #include "services/segment_svc/core/segment_params.h"
 #include "services/segment_svc/core/view_distances.h"
@@ -29,23 +32,27 @@ struct Segmentation {
 /// Where the robot can go, frame by frame. Nothing is allocated after the first frame of a size.
 ///
 /// Floor, free range and corridor always come from geometry. The label image, and what is summed up
-/// from it, comes from the model: "geometry", or "gaussian", the thesis's grey Gaussians, once
-/// there is a classifier; a colour image of another size than the depth image is thinned out to it.
+/// from it, comes from the model: "geometry", or, once taught and where a frame has colour,
+/// "gaussian", the thesis's grey Gaussians, or "mixture", mixtures of Gaussians over colour.
 class Segmenter {
  public:
   explicit Segmenter(const SegmentParams& params);
 
-  void set_classifier(const GreyClassifier& classifier) { classifier_ = classifier; }
+  /// From the next frame on, what is taught is this.
+  void learn(const ColorModel& taught);
 
   /// Fills `result`, reusing its memory. `frame` must be as FrameDecoder lets through.
   void segment(const RgbdFrame& frame, Segmentation& result);
 
   /// Model that labelled the last frame.
-  const char* model_in_force() const { return labelled_by_grey_ ? "gaussian" : "geometry"; }
+  const char* model_in_force() const { return model_in_force_; }
 
  private:
   void look_around(const RgbdFrame& frame, Segmentation& result);
-  void label_by_grey(const RgbdFrame& frame, std::vector<std::uint8_t>& labels) const;
+  /// Name of the model that labelled.
+  const char* label(const RgbdFrame& frame, std::vector<std::uint8_t>& labels);
+  template <class Classifier>
+  void paint(const RgbdFrame& frame, const Classifier& label_of, std::vector<std::uint8_t>& labels);
 
   SegmentParams params_;
   CameraView view_;
@@ -54,8 +61,10 @@ class Segmenter {
   GroundRows ground_;
   FreeRange free_range_;
   Corridor corridor_;
-  std::optional<GreyClassifier> classifier_;
-  bool labelled_by_grey_ = false;
+  ColorGrid colors_;
+  std::optional<GreyClassifier> grey_;
+  std::optional<ColorTable> table_;
+  const char* model_in_force_ = "geometry";
 };
 
 }  // namespace roomwise::segment

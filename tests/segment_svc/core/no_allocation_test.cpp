@@ -5,21 +5,18 @@
 
 #include "services/segment_svc/core/segmenter.h"
 #include "tests/segment_svc/support/scenes.h"
+#include "tests/segment_svc/support/taught.h"
 #include "tests/support/allocation_counter.h"
 
 namespace roomwise::segment {
 namespace {
-
-GreyClassifier some_classifier() {
-  return GreyClassifier({{{60.0, 10.0}, {195.0, 10.0}, {125.0, 10.0}}});
-}
 
 /// Allocations of segment() on a real frame and on one of noise, after an empty one of that size.
 long allocations_of(const char* model) {
   SegmentParams params;
   params.model = model;
   Segmenter segmenter(params);
-  segmenter.set_classifier(some_classifier());
+  segmenter.learn(taught_greys({{{60.0, 10.0}, {195.0, 10.0}, {125.0, 10.0}}}));
   Segmentation result;
   const RgbdFrame frame = furnished_frame({.height_m = 0.5, .pitch_rad = 0.3});
   RgbdFrame other = frame;
@@ -38,6 +35,7 @@ long allocations_of(const char* model) {
 TEST(Segmenter, AllocatesNothingAfterTheFirstFrame) {
   EXPECT_EQ(allocations_of("geometry"), 0);
   EXPECT_EQ(allocations_of("gaussian"), 0);
+  EXPECT_EQ(allocations_of("mixture"), 0);
 }
 
 TEST(Segmenter, ThisTestCountsAllocations) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/segment_svc/support/scenes.h"
+#include "tests/segment_svc/support/taught.h"
 
 namespace roomwise::segment {
 namespace {
@@ -47,7 +48,7 @@ TEST(Segmenter, FrameWithoutReadingsIsAllUnknown) {
   std::fill(frame.color.rgb.begin(), frame.color.rgb.end(), std::uint8_t{0});
   for (SegmentParams params : {SegmentParams{}, gaussian_params()}) {
     Segmenter segmenter(params);
-    segmenter.set_classifier(GreyClassifier(kGaussians));
+    segmenter.learn(taught_greys(kGaussians));
     Segmentation result;
     segmenter.segment(frame, result);
     EXPECT_EQ(count(result.labels, kUnknown), 640 * 480);
@@ -121,9 +122,9 @@ TEST(Gaussian, LabelsEveryPixelWithAReadingByItsGrey) {
   const GreyClassifier classifier(kGaussians);
   for (const bool needs_depth : {true, false}) {
     SegmentParams params = gaussian_params();
-    params.grey_needs_depth = needs_depth;
+    params.color_needs_depth = needs_depth;
     Segmenter segmenter(params);
-    segmenter.set_classifier(classifier);
+    segmenter.learn(taught_greys(kGaussians));
     Segmentation result;
     segmenter.segment(frame, result);
     EXPECT_STREQ(segmenter.model_in_force(), "gaussian");
@@ -147,7 +148,7 @@ TEST(Gaussian, WithoutTrainingOrColorGeometryLabels) {
   EXPECT_EQ(result.labels, geometry.labels);
 
   Segmenter trained(gaussian_params());
-  trained.set_classifier(GreyClassifier(kGaussians));
+  trained.learn(taught_greys(kGaussians));
   frame.color = {};
   trained.segment(frame, result);
   EXPECT_STREQ(trained.model_in_force(), "geometry");
@@ -158,9 +159,9 @@ TEST(Gaussian, ColorOfAnotherSizeIsThinnedOut) {
   RgbdFrame frame = furnished_frame({.height_m = 0.5, .pitch_rad = 0.3});
   frame.color = {.width_px = 2, .height_px = 1, .rgb = {60, 60, 60, 195, 195, 195}};
   SegmentParams params = gaussian_params();
-  params.grey_needs_depth = false;
+  params.color_needs_depth = false;
   Segmenter segmenter(params);
-  segmenter.set_classifier(GreyClassifier(kGaussians));
+  segmenter.learn(taught_greys(kGaussians));
   Segmentation result;
   segmenter.segment(frame, result);
   EXPECT_EQ(result.labels[319], kObstacle);
@@ -173,7 +174,7 @@ TEST(Gaussian, FreeRangeIsGeometrysAllTheSame) {
   Segmentation gaussian;
   Segmenter(SegmentParams{}).segment(frame, geometry);
   Segmenter segmenter(gaussian_params());
-  segmenter.set_classifier(GreyClassifier({{{0.0, 1.0}, {1.0, 1.0}, {125.0, 99.0}}}));
+  segmenter.learn(taught_greys({{{0.0, 1.0}, {1.0, 1.0}, {125.0, 99.0}}}));
   segmenter.segment(frame, gaussian);
   EXPECT_NE(gaussian.labels, geometry.labels);
   for (std::size_t k = 0; k < geometry.bearings.size(); ++k) {

@@ -1,4 +1,4 @@
-#include "services/segment_svc/core/grey_gaussians.h"
+#include "services/segment_svc/core/color/grey_gaussians.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,7 @@ GreyClassifier::GreyClassifier(const Gaussians& gaussians) : gaussians_(gaussian
                                          return log_likelihood(static_cast<double>(grey), a) <
                                                 log_likelihood(static_cast<double>(grey), b);
                                        });
-    label_of_grey_[grey] = kClasses[static_cast<std::size_t>(best - gaussians_.begin())];
+    label_of_grey_[grey] = kTrainedClasses[static_cast<std::size_t>(best - gaussians_.begin())];
   }
 }
 

@@ -1,4 +1,4 @@
-#include "services/segment_svc/core/training.h"
+#include "services/segment_svc/core/color/training.h"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +26,7 @@ const TrainingRectangle kDark{kObstacle, 0, 0, 20, 40};
 const TrainingRectangle kMiddle{kWall, 20, 0, 20, 40};
 const TrainingRectangle kBright{kAccessible, 40, 0, 20, 40};
 
-std::variant<GreyClassifier::Gaussians, TrainingFault> learn(
-    const std::vector<TrainingRectangle>& rectangles) {
+std::variant<ColorModel, TrainingFault> learn(const std::vector<TrainingRectangle>& rectangles) {
   return train(stripes(), rectangles, GreyStatistics::kAverage);
 }
 
@@ -39,17 +38,25 @@ void expect_fault(const std::vector<TrainingRectangle>& rectangles, TrainingFaul
 
 TEST(Training, LearnsEachClassFromItsRectangles) {
   const auto learned = learn({kBright, kDark, kMiddle});
-  const auto& gaussians = std::get<GreyClassifier::Gaussians>(learned);
+  const auto& gaussians = std::get<ColorModel>(learned).grey;
   EXPECT_DOUBLE_EQ(gaussians[0].mean_levels, 42.0);
   EXPECT_DOUBLE_EQ(gaussians[1].mean_levels, 122.0);
   EXPECT_DOUBLE_EQ(gaussians[2].mean_levels, 202.0);
   EXPECT_DOUBLE_EQ(gaussians[2].sigma_levels, 2.0);
 }
 
+TEST(Training, LearnsAMixtureWhereAClassHasSeveralColours) {
+  const auto learned = learn({kDark, {kAccessible, 20, 0, 40, 40}, {kWall, 10, 0, 20, 40}});
+  const auto& mixtures = std::get<ColorModel>(learned).mixtures;
+  ASSERT_GE(mixtures[2].parts().size(), 2U);
+  EXPECT_GT(mixtures[2].log_likelihood(color_feature(122, 122, 122)),
+            mixtures[2].log_likelihood(color_feature(160, 160, 160)));
+}
+
 TEST(Training, SeveralRectanglesOfAClassCountTogether) {
   const auto learned =
       learn({{kObstacle, 0, 0, 10, 40}, kMiddle, kBright, {kObstacle, 10, 0, 10, 40}});
-  EXPECT_DOUBLE_EQ(std::get<GreyClassifier::Gaussians>(learned)[0].mean_levels, 42.0);
+  EXPECT_DOUBLE_EQ(std::get<ColorModel>(learned).grey[0].mean_levels, 42.0);
 }
 
 TEST(Training, NamesWhatIsWrong) {

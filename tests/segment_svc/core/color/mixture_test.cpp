@@ -1,12 +1,10 @@
-#include "services/segment_svc/core/mixture.h"
+#include "services/segment_svc/core/color/mixture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
-
-#include "services/segment_svc/core/color_table.h"
 
 namespace roomwise::segment {
 namespace {
@@ -93,32 +91,6 @@ TEST(Mixture, PartThatIsNoGaussianIsRefused) {
   EXPECT_THROW(Mixture(Parts{}), std::invalid_argument);
   EXPECT_THROW(Mixture(Parts{{.covariance = -Eigen::Matrix3d::Identity()}}), std::invalid_argument);
   EXPECT_THROW(Mixture(Parts{{.weight_ratio = 0.0}}), std::invalid_argument);
-}
-
-ColorTable::Mixtures three_colours() {
-  const auto around = [](std::uint8_t r, std::uint8_t g, std::uint8_t b) {
-    return Mixture(
-        {{.mean = color_feature(r, g, b), .covariance = 0.02 * Eigen::Matrix3d::Identity()}});
-  };
-  return {around(60, 60, 160), around(200, 200, 190), around(150, 110, 70)};
-}
-
-TEST(ColorTable, NamesTheLikeliestClassAndLeavesStrangeColoursUnknown) {
-  const ColorTable table(three_colours(), -20.0);
-  EXPECT_EQ(table.classify(62, 58, 158), kObstacle);
-  EXPECT_EQ(table.classify(205, 198, 188), kWall);
-  EXPECT_EQ(table.classify(148, 112, 72), kAccessible);
-  EXPECT_EQ(table.classify(10, 250, 10), kUnknown);
-}
-
-TEST(ColorTable, ImageIsLabelledPixelByPixel) {
-  const ColorTable table(three_colours(), -20.0);
-  const ColorImage color{.width_px = 2, .height_px = 1, .rgb = {62, 58, 158, 148, 112, 72}};
-  std::vector<std::uint8_t> labels(2);
-  table.classify(color, labels);
-  EXPECT_EQ(labels, (std::vector<std::uint8_t>{kObstacle, kAccessible}));
-  labels.resize(3);
-  EXPECT_THROW(table.classify(color, labels), std::invalid_argument);
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ std::optional<GreyGaussian> grey_statistics(const GreyHistogram& histogram, Grey
 /// prior 1/3, and the class of the largest p(grey | class) p(class). p(grey) cancels in the argmax.
 class GreyClassifier {
  public:
-  static constexpr std::array<Label, 3> kClasses = {kObstacle, kWall, kAccessible};
-  using Gaussians = std::array<GreyGaussian, kClasses.size()>;
+  using Gaussians = std::array<GreyGaussian, kTrainedClasses.size()>;
 
   explicit GreyClassifier(const Gaussians& gaussians);
 

@@ -1,4 +1,4 @@
-#include "services/segment_svc/core/mixture.h"
+#include "services/segment_svc/core/color/mixture.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "services/segment_svc/core/grey_gaussians.h"
+#include "services/segment_svc/core/color/grey_gaussians.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -97,9 +97,9 @@ RC_GTEST_PROP(GreyClassifier, TakesTheMostProbableClass, ()) {
   const GreyClassifier classifier(gaussians);
   for (int grey = 0; grey < 256; ++grey) {
     const auto p = posterior(grey, gaussians);
-    const auto chosen = std::find(GreyClassifier::kClasses.begin(), GreyClassifier::kClasses.end(),
+    const auto chosen = std::find(kTrainedClasses.begin(), kTrainedClasses.end(),
                                   classifier.classify(static_cast<std::uint8_t>(grey)));
-    const double p_chosen = p[static_cast<std::size_t>(chosen - GreyClassifier::kClasses.begin())];
+    const double p_chosen = p[static_cast<std::size_t>(chosen - kTrainedClasses.begin())];
     for (const double other : p) RC_ASSERT(p_chosen >= other * (1.0 - 1e-9));
   }
 }
