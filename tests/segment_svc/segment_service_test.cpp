@@ -100,7 +100,7 @@ TEST(SegmentService, PublishesOneAnswerAFrame) {
   EXPECT_EQ(s.frame_seq, 2);
   EXPECT_EQ(s.label_width_px, 320);
   EXPECT_EQ(s.label_height_px, 240);
-  EXPECT_EQ(s.model, "geometry");
+  EXPECT_EQ(s.model, "fused");
   EXPECT_EQ(s.floor_trusted, 1);
   EXPECT_NEAR(s.floor_height_m, 0.5, 0.01);
   EXPECT_NEAR(s.camera_pitch_rad, 0.3, 0.01);

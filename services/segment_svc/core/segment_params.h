@@ -5,7 +5,7 @@ namespace roomwise::segment {
 
 /// Tuning of segment_svc; services/segment_svc/params.toml may override any field.
 struct SegmentParams {
-  std::string model = "geometry";  ///< how pixels are labelled
+  std::string model = "fused";  ///< how pixels are labelled
   std::string model_path;          ///< file of what was taught; empty: kept in memory only
   std::string training_statistics =
       "average";                  ///< how the grey Gaussians' mean and sigma are found
@@ -28,7 +28,7 @@ struct SegmentParams {
 
   template <class Field>
   void visit_fields(Field&& field) {
-    field("model", model, {"geometry", "gaussian", "mixture"});
+    field("model", model, {"geometry", "gaussian", "mixture", "fused"});
     field("model_path", model_path);
     field("training_statistics", training_statistics, {"average", "threshold"});
     field("color_needs_depth", color_needs_depth);

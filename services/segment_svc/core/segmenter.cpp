@@ -17,6 +17,7 @@ Segmenter::Segmenter(const SegmentParams& params)
 void Segmenter::learn(const ColorModel& taught) {
   grey_.emplace(taught.grey);
   table_.emplace(taught.mixtures);
+  fused_.teach(taught);
 }
 
 void Segmenter::segment(const RgbdFrame& frame, Segmentation& result) {
@@ -24,7 +25,7 @@ void Segmenter::segment(const RgbdFrame& frame, Segmentation& result) {
   result.floor = floor_fit_.fit(frame, view_);
   geometry_.label(frame, view_, result.floor.plane, result.labels);
   look_around(frame, result);
-  model_in_force_ = label(frame, result.labels);
+  model_in_force_ = label(frame, result);
   result.distances = measure_distances(frame.depth, params_.range_max_m, result.labels);
 }
 
@@ -44,7 +45,12 @@ void Segmenter::look_around(const RgbdFrame& frame, Segmentation& result) {
   result.corridor = corridor_.end();
 }
 
-const char* Segmenter::label(const RgbdFrame& frame, std::vector<std::uint8_t>& labels) {
+const char* Segmenter::label(const RgbdFrame& frame, Segmentation& result) {
+  std::vector<std::uint8_t>& labels = result.labels;
+  if (params_.model == "fused") {
+    fused_.correct(frame, view_, result.floor.plane, labels);
+    return "fused";
+  }
   if (frame.color.empty() || !grey_) return "geometry";
   if (params_.model == "gaussian") {
     const auto by_grey = [&](const std::uint8_t* rgb) {

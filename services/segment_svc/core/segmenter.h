@@ -13,6 +13,7 @@
 #include "services/segment_svc/core/corridor.h"
 #include "services/segment_svc/core/floor_fit.h"
 #include "services/segment_svc/core/free_range.h"
+#include "services/segment_svc/core/fused_labels.h"
 #include "services/segment_svc/core/geometry_labels.h"
 #include "services/segment_svc/core/ground_rows.h"
 #include "services/segment_svc/core/segment_params.h"
@@ -32,8 +33,9 @@ struct Segmentation {
 /// Where the robot can go, frame by frame. Nothing is allocated after the first frame of a size.
 ///
 /// Floor, free range and corridor always come from geometry. The label image, and what is summed up
-/// from it, comes from the model: "geometry", or, once taught and where a frame has colour,
-/// "gaussian", the thesis's grey Gaussians, or "mixture", mixtures of Gaussians over colour.
+/// from it, comes from the model: "geometry"; "fused", geometry judged again by colour; or, once
+/// taught and where a frame has colour, "gaussian", the thesis's grey Gaussians, or "mixture",
+/// mixtures of Gaussians over colour.
 class Segmenter {
  public:
   explicit Segmenter(const SegmentParams& params);
@@ -50,7 +52,7 @@ class Segmenter {
  private:
   void look_around(const RgbdFrame& frame, Segmentation& result);
   /// Name of the model that labelled.
-  const char* label(const RgbdFrame& frame, std::vector<std::uint8_t>& labels);
+  const char* label(const RgbdFrame& frame, Segmentation& result);
   template <class Classifier>
   void paint(const RgbdFrame& frame, const Classifier& label_of, std::vector<std::uint8_t>& labels);
 
@@ -61,6 +63,7 @@ class Segmenter {
   GroundRows ground_;
   FreeRange free_range_;
   Corridor corridor_;
+  FusedLabels fused_;
   ColorGrid colors_;
   std::optional<GreyClassifier> grey_;
   std::optional<ColorTable> table_;

@@ -112,9 +112,11 @@ TEST(GeometryLabels, ColorChangesNothing) {
   RgbdFrame frame = furnished_frame({.height_m = 0.5, .pitch_rad = 0.3});
   Segmentation bright;
   Segmentation dark;
-  Segmenter(SegmentParams{}).segment(frame, bright);
+  SegmentParams params;
+  params.model = "geometry";
+  Segmenter(params).segment(frame, bright);
   for (std::uint8_t& level : frame.color.rgb) level = static_cast<std::uint8_t>(level / 20);
-  Segmenter(SegmentParams{}).segment(frame, dark);
+  Segmenter(params).segment(frame, dark);
   EXPECT_EQ(bright.labels, dark.labels);
 }
 

@@ -36,6 +36,7 @@ TEST(Segmenter, AllocatesNothingAfterTheFirstFrame) {
   EXPECT_EQ(allocations_of("geometry"), 0);
   EXPECT_EQ(allocations_of("gaussian"), 0);
   EXPECT_EQ(allocations_of("mixture"), 0);
+  EXPECT_EQ(allocations_of("fused"), 0);
 }
 
 TEST(Segmenter, ThisTestCountsAllocations) {

@@ -19,6 +19,12 @@ SegmentParams gaussian_params() {
   return params;
 }
 
+SegmentParams geometry_params() {
+  SegmentParams params;
+  params.model = "geometry";
+  return params;
+}
+
 const GreyClassifier::Gaussians kGaussians = {{{60.0, 20.0}, {195.0, 10.0}, {125.0, 15.0}}};
 
 void expect_finite(const Segmentation& result) {
@@ -140,7 +146,7 @@ TEST(Gaussian, LabelsEveryPixelWithAReadingByItsGrey) {
 TEST(Gaussian, WithoutTrainingOrColorGeometryLabels) {
   RgbdFrame frame = furnished_frame({.height_m = 0.5, .pitch_rad = 0.3});
   Segmentation geometry;
-  Segmenter(SegmentParams{}).segment(frame, geometry);
+  Segmenter(geometry_params()).segment(frame, geometry);
   Segmenter untrained(gaussian_params());
   Segmentation result;
   untrained.segment(frame, result);
@@ -172,7 +178,7 @@ TEST(Gaussian, FreeRangeIsGeometrysAllTheSame) {
   const RgbdFrame frame = furnished_frame({.height_m = 0.5, .pitch_rad = 0.3});
   Segmentation geometry;
   Segmentation gaussian;
-  Segmenter(SegmentParams{}).segment(frame, geometry);
+  Segmenter(geometry_params()).segment(frame, geometry);
   Segmenter segmenter(gaussian_params());
   segmenter.learn(taught_greys({{{0.0, 1.0}, {1.0, 1.0}, {125.0, 99.0}}}));
   segmenter.segment(frame, gaussian);

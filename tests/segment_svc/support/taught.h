@@ -9,7 +9,7 @@ namespace roomwise::segment {
 /// A mixture of one round part around a colour.
 inline Mixture around(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   return Mixture({{.mean = color_feature(red, green, blue),
-                   .covariance = 0.02 * Eigen::Matrix3d::Identity()}});
+                   .covariance = 0.005 * Eigen::Matrix3d::Identity()}});
 }
 
 /// Classes told by their grey alone.
