@@ -34,14 +34,22 @@ ClassScores logarithms(const ClassScores& ratio) {
   return {std::log(ratio[0]), std::log(ratio[1]), std::log(ratio[2])};
 }
 
+float slope_of_row(const CameraView& view, const FloorPlane& floor, int row_px) {
+  const Eigen::Vector3f n = floor.normal.cast<float>();
+  return n.y() * view.ray_y()[static_cast<std::size_t>(row_px)] + n.z();
+}
+
 }  // namespace
 
+float floor_depth_m(const CameraView& view, const FloorPlane& floor, int row_px) {
+  const float slope = slope_of_row(view, floor, row_px);
+  return slope < 0.0F ? static_cast<float>(floor.height_m) / -slope : kAny_m;
+}
+
 ClassScores log_location_prior(const CameraView& view, const FloorPlane& floor, int row_px) {
-  const auto row = static_cast<std::size_t>(row_px);
-  const Eigen::Vector3f n = floor.normal.cast<float>();
-  const float slope = n.y() * view.ray_y()[row] + n.z();
+  const float slope = slope_of_row(view, floor, row_px);
   if (!(slope < 0.0F)) return logarithms(slope > kAboveSlope ? kAbove : kJustAboveHorizon);
-  const float depth_m = static_cast<float>(floor.height_m) / -slope;
+  const float depth_m = floor_depth_m(view, floor, row_px);
   const auto* zone = std::find_if(kZones.begin(), kZones.end() - 1,
                                   [&](const Zone& z) { return depth_m <= z.depth_max_m; });
   return logarithms(zone->share_ratio);

@@ -5,6 +5,9 @@
 
 namespace roomwise::segment {
 
+/// Depth at which the rays of an image row meet the floor; infinite where they never do.
+float floor_depth_m(const CameraView& view, const FloorPlane& floor, int row_px);
+
 /// ln p(class | place) of an image row, by where its rays would meet the floor: near the robot is
 /// mostly floor, above the horizon there is none.
 ClassScores log_location_prior(const CameraView& view, const FloorPlane& floor, int row_px);

@@ -6,11 +6,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/multiversion.h"
+
 namespace roomwise::segment {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-constexpr std::array<double, 9> kBands_m = {0.10, 0.10, 0.10, 0.08, 0.05, 0.03, 0.02, 0.015, 0.012};
+constexpr std::array<double, 4> kWideBands_m = {0.10, 0.10, 0.10, 0.08};
+constexpr std::array<double, 5> kBands_m = {0.05, 0.03, 0.02, 0.015, 0.012};
+
+/// A plane that the first narrow band moves less than this needs no wide ones.
+constexpr double kNearTilt_rad = 0.3 * kDegree_rad;
+constexpr double kNearHeight_m = 0.005;
 
 /// Neighbouring grid points share much of their error (it is correlated over about 9 pixels, and
 /// lenses bend): this many count as one against the prior.
@@ -21,9 +28,81 @@ constexpr double kPriorTilt_rad = 3.0 * kDegree_rad;  // tilt changes less betwe
 constexpr double kMountedTilt_rad = 5.0 * kDegree_rad;
 constexpr double kMountedHeight_m = 0.05;
 
+bool are_near(const FloorPlane& a, const FloorPlane& b) {
+  return a.normal.dot(b.normal) >= std::cos(kNearTilt_rad) &&
+         std::abs(a.height_m - b.height_m) <= kNearHeight_m;
+}
+
 bool is_as_mounted(const FloorPlane& plane, const FloorPlane& mounted) {
   return plane.normal.dot(mounted.normal) >= std::cos(kMountedTilt_rad) &&
          std::abs(plane.height_m - mounted.height_m) <= kMountedHeight_m;
+}
+
+constexpr std::size_t kLanes = 16;
+
+/// Sums of the normal equations over the points near a plane, in lanes, so that many points are
+/// added at a time, always in the same order.
+struct StepSums {
+  using Lanes = std::array<float, kLanes>;
+  Lanes aa{}, ab{}, bb{}, a{}, b{}, one{}, ha{}, hb{}, h{};
+
+  Eigen::Matrix3d information() const {
+    Eigen::Matrix3d sum;
+    sum << total(aa), total(ab), total(a), total(ab), total(bb), total(b), total(a), total(b),
+        total(one);
+    return sum;
+  }
+  Eigen::Vector3d gradient() const { return -Eigen::Vector3d(total(ha), total(hb), total(h)); }
+
+  static double total(const Lanes& lanes) {
+    double sum = 0.0;
+    for (const float lane : lanes) sum += static_cast<double>(lane);
+    return sum;
+  }
+};
+
+/// The plane a step starts from, two directions to tilt it about, and which points count.
+struct StepRule {
+  FloatPlane plane;
+  Eigen::Vector3f first;
+  Eigen::Vector3f second;
+  float band_m;
+};
+
+inline void add_point(const FloorPoint& point, const StepRule& rule, std::size_t lane,
+                      StepSums& sums) {
+  const auto [height_m, sigma_m] = rule.plane(point);
+  const float variance = 1e-4F + sigma_m * sigma_m;
+  float weight = static_cast<float>(1.0 / kCorrelated) / variance;
+  weight = std::abs(height_m) <= rule.band_m + sigma_m ? weight : 0.0F;
+  const float a = rule.first.dot(point.p_camera_m);
+  const float b = rule.second.dot(point.p_camera_m);
+  const float wa = weight * a;
+  const float wb = weight * b;
+  const float wh = weight * height_m;
+  sums.aa[lane] += wa * a;
+  sums.ab[lane] += wa * b;
+  sums.bb[lane] += wb * b;
+  sums.a[lane] += wa;
+  sums.b[lane] += wb;
+  sums.one[lane] += weight;
+  sums.ha[lane] += wh * a;
+  sums.hb[lane] += wh * b;
+  sums.h[lane] += wh;
+}
+
+ROOMWISE_MULTIVERSION
+void add_points(const FloorPoint* points, std::size_t count, const StepRule& rule,
+                StepSums& __restrict sums) {
+  StepSums local;
+  const std::size_t whole = count - count % kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      add_point(points[i + lane], rule, lane, local);
+    }
+  }
+  for (std::size_t i = whole; i < count; ++i) add_point(points[i], rule, i - whole, local);
+  sums = local;
 }
 
 int votes(const FloorPlane& plane, const std::vector<FloorPoint>& points) {
@@ -113,6 +192,9 @@ std::optional<FloorEstimate> FloorFit::find(const FloorPlane& mounted) {
 
 std::optional<FloorEstimate> FloorFit::settle(const FloorPlane& from, const FloorPlane& mounted) {
   FloorPlane plane = from;
+  if (!are_near(refine(from, kBands_m.front()), from)) {
+    for (const double band_m : kWideBands_m) plane = refine(plane, band_m);
+  }
   for (const double band_m : kBands_m) plane = refine(plane, band_m);
   const PlaneSupport support =
       support_of(plane, points_, params_.floor_tolerance_m, params_.drop_off_depth_m);
@@ -128,25 +210,18 @@ std::optional<FloorEstimate> FloorFit::settle(const FloorPlane& from, const Floo
 FloorPlane FloorFit::refine(const FloorPlane& start, double band_m) const {
   const Eigen::Vector3d first = start.normal.unitOrthogonal();
   const Eigen::Vector3d second = start.normal.cross(first);
-  const Eigen::Vector3f first_f = first.cast<float>();
-  const Eigen::Vector3f second_f = second.cast<float>();
-  const FloatPlane height_of(start);
-  const auto band = static_cast<float>(band_m);
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  for (const FloorPoint& point : points_) {
-    const auto [height_m, sigma_m] = height_of(point);
-    if (!(std::abs(height_m) <= band + 1.0F * sigma_m)) continue;
-    const double weight = 1.0 / (kCorrelated * (1e-4 + static_cast<double>(sigma_m * sigma_m)));
-    const Eigen::Vector3d jacobian(first_f.dot(point.p_camera_m), second_f.dot(point.p_camera_m),
-                                   1.0);
-    information.noalias() += (weight * jacobian) * jacobian.transpose();
-    gradient -= (weight * static_cast<double>(height_m)) * jacobian;
-  }
+  StepSums sums;
+  add_points(points_.data(), points_.size(),
+             {.plane = FloatPlane(start),
+              .first = first.cast<float>(),
+              .second = second.cast<float>(),
+              .band_m = static_cast<float>(band_m)},
+             sums);
+  Eigen::Matrix3d information = sums.information();
   information(0, 0) += 1.0 / (kPriorTilt_rad * kPriorTilt_rad);
   information(1, 1) += 1.0 / (kPriorTilt_rad * kPriorTilt_rad);
   information(2, 2) += 1.0;  // a metre
-  const Eigen::Vector3d step = information.ldlt().solve(gradient);
+  const Eigen::Vector3d step = information.ldlt().solve(sums.gradient());
   const Eigen::Vector3d normal = start.normal + step[0] * first + step[1] * second;
   const double length = normal.norm();
   return {.normal = normal / length, .height_m = (start.height_m + step[2]) / length};

@@ -23,11 +23,30 @@ Label sure_standing(const ClassScores& log_scores) {
   return wall >= std::max(obstacle, accessible) + kSureLead ? kWall : kUnknown;
 }
 
-Label likelier_standing(const ClassScores& log_scores) {
-  return log_scores[kWallIndex] > log_scores[kObstacleIndex] ? kWall : kObstacle;
+/// Nearer than this depth decides alone what is floor.
+constexpr float kFloorJudgedFrom_m = 2.0F;
+
+/// Floor that is likelier something else.
+bool is_doubtful(const ClassScores& log_scores) {
+  return std::max(log_scores[kObstacleIndex], log_scores[kWallIndex]) >
+         log_scores[kAccessibleIndex];
 }
 
-bool is_judged(std::uint8_t label) { return label != kDropOff; }
+/// What the colours of a row say.
+struct WithColor {
+  const ColorEvidence& evidence;
+  const ColorGrid& grid;
+  const std::uint8_t* row;
+
+  std::size_t bin(std::size_t u) const { return ColorEvidence::bin(grid.at(row, u)); }
+  const ClassScores& of(std::size_t u) const { return evidence.of(bin(u)); }
+  float wall_lead(std::size_t u) const { return evidence.wall_lead(bin(u)); }
+};
+
+struct WithoutColor {
+  static ClassScores of(std::size_t /*u*/) { return {}; }
+  static float wall_lead(std::size_t /*u*/) { return 0.0F; }
+};
 
 }  // namespace
 
@@ -48,8 +67,12 @@ void FusedLabels::correct(const RgbdFrame& frame, const CameraView& view, const 
   }
   const auto width = static_cast<std::size_t>(view.width_px());
   for (std::size_t v = 0; v < rows_.size(); ++v) {
-    correct_row(width, rows_[v], color_is_used_ ? colors_.row(v) : nullptr,
-                labels.data() + v * width);
+    std::uint8_t* row = labels.data() + v * width;
+    if (color_is_used_) {
+      correct_row(width, rows_[v], WithColor{evidence_, colors_, colors_.row(v)}, row);
+    } else {
+      correct_row(width, rows_[v], WithoutColor{}, row);
+    }
   }
 }
 
@@ -61,10 +84,12 @@ void FusedLabels::prepare_rows(const CameraView& view, const FloorPlane& floor) 
   rows_.resize(static_cast<std::size_t>(view.height_px()));
   for (int v = 0; v < view.height_px(); ++v) {
     const ClassScores prior = log_location_prior(view, floor, v);
-    rows_[static_cast<std::size_t>(v)] = {.obstacle = prior + obstacle,
-                                          .wall = prior + wall,
-                                          .accessible = prior + accessible,
-                                          .unknown = prior + unknown};
+    rows_[static_cast<std::size_t>(v)] = {
+        .obstacle = prior + obstacle,
+        .wall = prior + wall,
+        .accessible = prior + accessible,
+        .unknown = prior + unknown,
+        .judges_floor = floor_depth_m(view, floor, v) > kFloorJudgedFrom_m};
   }
 }
 
@@ -77,32 +102,30 @@ void FusedLabels::learn(const CameraView& view, const std::vector<std::uint8_t>&
     const std::uint8_t* colors = colors_.row(v);
     for (std::size_t u = step / 2; u < width; u += step) {
       const std::uint8_t label = labels[v * width + u];
-      if (label == kUnknown || !is_judged(label)) continue;
+      if (label == kUnknown || label == kDropOff) continue;
       const ClassScores& known = rows_[v].of(label);
-      evidence_.add(colors_.at(colors, u), normalised(known),
-                    normalised(known + evidence_at(colors, u)));
+      const std::uint8_t* rgb = colors_.at(colors, u);
+      const ClassScores all = known + evidence_.of(ColorEvidence::bin(rgb));
+      evidence_.add(rgb, normalised(known), normalised(all));
     }
   }
   evidence_.end();
 }
 
-ClassScores FusedLabels::evidence_at(const std::uint8_t* colors, std::size_t u) const {
-  if (colors == nullptr) return {};
-  return evidence_.of(ColorEvidence::bin(colors_.at(colors, u)));
-}
-
-void FusedLabels::correct_row(std::size_t width, const RowScores& row, const std::uint8_t* colors,
-                              std::uint8_t* labels) const {
+template <class Evidence>
+void FusedLabels::correct_row(std::size_t width, const RowScores& row, const Evidence& evidence,
+                              std::uint8_t* labels) {
+  const float lead_if_wall = row.wall[kWallIndex] - row.wall[kObstacleIndex];
+  const float lead_if_obstacle = row.obstacle[kWallIndex] - row.obstacle[kObstacleIndex];
   for (std::size_t u = 0; u < width; ++u) {
     const std::uint8_t label = labels[u];
-    if (!is_judged(label)) continue;
-    const ClassScores scores = row.of(label) + evidence_at(colors, u);
-    if (label == kObstacle || label == kWall) {
-      labels[u] = likelier_standing(scores);
+    if (label == kAccessible) {
+      if (row.judges_floor && is_doubtful(row.accessible + evidence.of(u))) labels[u] = kUnknown;
+    } else if (label == kObstacle || label == kWall) {
+      const float lead = label == kWall ? lead_if_wall : lead_if_obstacle;
+      labels[u] = lead + evidence.wall_lead(u) > 0.0F ? kWall : kObstacle;
     } else if (label == kUnknown) {
-      labels[u] = sure_standing(scores);
-    } else if (std::max(scores[kObstacleIndex], scores[kWallIndex]) > scores[kAccessibleIndex]) {
-      labels[u] = kUnknown;
+      labels[u] = sure_standing(row.unknown + evidence.of(u));
     }
   }
 }

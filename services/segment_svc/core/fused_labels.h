@@ -34,14 +34,15 @@ class FusedLabels {
   /// What is known of a row's pixels but for their colour: log scores by geometry's label.
   struct RowScores {
     ClassScores obstacle, wall, accessible, unknown;
+    bool judges_floor = false;
     const ClassScores& of(std::uint8_t label) const;
   };
 
   void prepare_rows(const CameraView& view, const FloorPlane& floor);
   void learn(const CameraView& view, const std::vector<std::uint8_t>& labels);
-  void correct_row(std::size_t width, const RowScores& row, const std::uint8_t* colors,
-                   std::uint8_t* labels) const;
-  ClassScores evidence_at(const std::uint8_t* colors, std::size_t u) const;
+  template <class Evidence>
+  static void correct_row(std::size_t width, const RowScores& row, const Evidence& evidence,
+                          std::uint8_t* labels);
 
   ColorEvidence evidence_;
   ColorGrid colors_;

@@ -6,7 +6,7 @@ namespace roomwise::segment {
 /// Tuning of segment_svc; services/segment_svc/params.toml may override any field.
 struct SegmentParams {
   std::string model = "fused";  ///< how pixels are labelled
-  std::string model_path;          ///< file of what was taught; empty: kept in memory only
+  std::string model_path;       ///< file of what was taught; empty: kept in memory only
   std::string training_statistics =
       "average";                  ///< how the grey Gaussians' mean and sigma are found
   bool color_needs_depth = true;  ///< colour alone does not label a pixel without a reading

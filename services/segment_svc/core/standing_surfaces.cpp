@@ -23,35 +23,50 @@ struct FootRule {
   float foot_per_m;
 };
 
+/// Choices one after another, no two in one condition: so the compiler makes selects of them and
+/// runs many pixels at a time.
 ROOMWISE_MULTIVERSION
 void mark_row(const std::uint16_t* steps, const float* rise_of_column, const float* ahead_of_column,
-              FootRule rule, std::size_t width, float* surface_per_m, float* rows,
-              std::uint8_t* labels) {
+              FootRule rule, std::size_t width, float* __restrict surface_per_m,
+              float* __restrict rows, std::uint8_t* __restrict labels) {
   for (std::size_t u = 0; u < width; ++u) {
-    const float per_ahead = 1.0F / (ahead_of_column[u] + rule.ahead);
+    const float surface = surface_per_m[u];
+    const float above = rows[u];
+    const int label = labels[u];
+    const float grown = above + 1.0F;
+    const float count = grown < kRowsAveraged ? grown : kRowsAveraged;
     const float z_m = rule.unit_m * static_cast<float>(steps[u] > 0 ? steps[u] : 1);
+    const float per_ahead = 1.0F / (ahead_of_column[u] + rule.ahead);
     const float per_m = per_ahead / z_m;
     const float floor_per_m = -(rise_of_column[u] + rule.rise) * rule.per_height_m * per_ahead;
-    const int label = labels[u];
-    const float off = std::abs(per_m - surface_per_m[u]);
-    const float same = rule.same_per_m * per_ahead;
-    const int is_same = static_cast<int>(off <= same) & static_cast<int>(rows[u] > 0.0F);
-    const int is_foot =
-        static_cast<int>(label == kAccessible) & is_same & static_cast<int>(rows[u] >= kRowsMin) &
-        static_cast<int>(surface_per_m[u] + rule.foot_per_m * per_ahead > floor_per_m);
-    const int stands = static_cast<int>(label == kObstacle) | is_foot;
-    // A foot says nothing new about its surface.
-    const float grown = rows[u] + 1.0F;
-    const float count = grown < kRowsAveraged ? grown : kRowsAveraged;
-    const float mean = surface_per_m[u] + (per_m - surface_per_m[u]) / count;
-    const float kept = is_foot != 0 ? surface_per_m[u] : mean;
-    const float new_per_m = is_same != 0 ? kept : per_m;
-    surface_per_m[u] = label != kUnknown ? new_per_m : surface_per_m[u];  // ends nothing
-    const float kept_rows = is_same != 0 ? count : 1.0F;
-    const float new_rows = stands != 0 ? kept_rows : 0.0F;
-    rows[u] = label != kUnknown ? new_rows : rows[u];
+    const float off = per_m - surface;
+
+    int is_same = std::abs(off) <= rule.same_per_m * per_ahead ? 1 : 0;
+    is_same = above > 0.0F ? is_same : 0;
+    int is_foot = label == kAccessible ? is_same : 0;
+    is_foot = above >= kRowsMin ? is_foot : 0;
+    is_foot = surface + rule.foot_per_m * per_ahead > floor_per_m ? is_foot : 0;
+    const int stands = label == kObstacle ? 1 : is_foot;
+
+    float new_per_m = surface + off / count;
+    new_per_m = is_foot != 0 ? surface : new_per_m;  // a foot says nothing new about its surface
+    new_per_m = is_same != 0 ? new_per_m : per_m;
+    float new_rows = is_same != 0 ? count : 1.0F;
+    new_rows = stands != 0 ? new_rows : 0.0F;
+    surface_per_m[u] = label == kUnknown ? surface : new_per_m;  // no reading ends nothing
+    rows[u] = label == kUnknown ? above : new_rows;
     labels[u] = static_cast<std::uint8_t>(is_foot != 0 ? static_cast<int>(kObstacle) : label);
   }
+}
+
+/// So far above the first row whose rays meet the floor that a surface's mean has settled there.
+std::size_t first_row(const CameraView& view, const Eigen::Vector3f& n) {
+  constexpr float kRowsBefore = 3.0F * kRowsAveraged;
+  const float edge_rise = std::max(-n.x() * view.ray_x().front(), -n.x() * view.ray_x().back());
+  const auto meets_floor = [&](float y) { return n.y() * y + n.z() < edge_rise; };
+  const auto first = std::find_if(view.ray_y().begin(), view.ray_y().end(), meets_floor);
+  const auto row = static_cast<float>(first - view.ray_y().begin());
+  return static_cast<std::size_t>(std::max(0.0F, row - kRowsBefore));
 }
 
 }  // namespace
@@ -69,7 +84,7 @@ void StandingSurfaces::mark(const RgbdFrame& frame, const CameraView& view, cons
   }
   surface_per_m_.assign(width, 0.0F);
   rows_.assign(width, 0.0F);
-  for (std::size_t v = 0; v < static_cast<std::size_t>(view.height_px()); ++v) {
+  for (std::size_t v = first_row(view, n); v < static_cast<std::size_t>(view.height_px()); ++v) {
     const float y = view.ray_y()[v];
     mark_row(frame.depth.steps.data() + v * width, rise_of_column_.data(), ahead_of_column_.data(),
              {.rise = n.y() * y + n.z(),

@@ -14,20 +14,32 @@ struct RowSum {
   std::uint32_t steps = 0;
 };
 
+/// 16 bits hold a row's counts, and let 16 pixels be counted at a time.
 ROOMWISE_MULTIVERSION
 void sum_row(const std::uint16_t* steps, const std::uint8_t* labels, std::size_t width,
              std::uint8_t label, std::uint16_t far_steps, RowSum& sum) {
-  std::uint32_t pixels = 0;
-  std::uint32_t readings = 0;
+  std::uint16_t pixels = 0;
+  std::uint16_t readings = 0;
   std::uint32_t total = 0;
   for (std::size_t u = 0; u < width; ++u) {
-    const std::uint32_t is_of_class = labels[u] == label ? 1U : 0U;
-    const std::uint32_t is_reading = steps[u] > 0 && steps[u] <= far_steps ? is_of_class : 0U;
-    pixels += is_of_class;
-    readings += is_reading;
-    total += is_reading * steps[u];
+    const std::uint16_t is_of_class = labels[u] == label ? 0xffff : 0;
+    const std::uint16_t near = steps[u] <= far_steps ? steps[u] : 0;
+    const auto kept = static_cast<std::uint16_t>(near & is_of_class);
+    pixels = static_cast<std::uint16_t>(pixels - is_of_class);  // all ones is -1
+    readings = static_cast<std::uint16_t>(readings + (kept > 0 ? 1 : 0));
+    total += kept;
   }
   sum = {.pixels = pixels, .readings = readings, .steps = total};
+}
+
+/// Most rows show two or three classes.
+ROOMWISE_MULTIVERSION
+bool has_label(const std::uint8_t* labels, std::size_t width, std::uint8_t label) {
+  std::uint8_t found = 0;
+  for (std::size_t u = 0; u < width; ++u) {
+    found = static_cast<std::uint8_t>(found | (labels[u] == label ? 1 : 0));
+  }
+  return found != 0;
 }
 
 struct ClassSum {
@@ -51,6 +63,7 @@ ViewDistances measure_distances(const DepthImage& depth, double range_max_m,
   RowSum row;
   for (std::size_t first = 0; first < labels.size(); first += width) {
     for (std::size_t k = 0; k < kLabels.size(); ++k) {
+      if (!has_label(labels.data() + first, width, kLabels[k])) continue;
       sum_row(depth.steps.data() + first, labels.data() + first, width, kLabels[k], far_steps, row);
       sums[k].pixels += row.pixels;
       sums[k].readings += row.readings;

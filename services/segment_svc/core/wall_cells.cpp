@@ -5,14 +5,15 @@
 #include <array>
 #include <cmath>
 
+#include "common/multiversion.h"
 #include "services/segment_svc/core/labels.h"
 
 namespace roomwise::segment {
 namespace {
 
 constexpr int kCell_px = 16;
-constexpr int kStride_px = 2;   // every second pixel each way says enough
-constexpr int kPixelsMin = 24;  // of 64
+constexpr int kStride_px = 2;        // every second pixel each way says enough
+constexpr float kPixelsMin = 24.0F;  // of 64
 constexpr float kResidual_quanta = 1.5F;
 constexpr float kOnWall_quanta = 4.0F;     // a pixel, against its own or a neighbour's plane
 constexpr float kWallFoot_quanta = 0.75F;  // between wall and floor that differ by less, the wall
@@ -20,6 +21,54 @@ constexpr float kUpright = 0.2F;           // |cosine| between a wall's normal a
 constexpr float kSameNormal = 0.95F;       // cosine: 18 degrees
 constexpr float kWidth_m = 0.5F;
 constexpr float kHeight_m = 0.6F;
+
+/// Adds a row's obstacle pixels to the sums of their columns, of 1, y and w = 1 / depth and of
+/// their products. A column's x is the same in all rows: it is brought in when columns become
+/// cells.
+ROOMWISE_MULTIVERSION
+void add_row(const std::uint16_t* steps, const std::uint8_t* labels, float y, float unit_m,
+             std::size_t columns, float* __restrict n, float* __restrict ny, float* __restrict nyy,
+             float* __restrict w, float* __restrict wy, float* __restrict ww) {
+  for (std::size_t i = 0; i < columns; ++i) {
+    const std::size_t u = kStride_px * i;
+    const float is_obstacle = labels[u] == kObstacle ? 1.0F : 0.0F;
+    const float z_m = unit_m * static_cast<float>(steps[u] > 0 ? steps[u] : 1);
+    const float per_m = is_obstacle / z_m;
+    n[i] += is_obstacle;
+    ny[i] += is_obstacle * y;
+    nyy[i] += is_obstacle * y * y;
+    w[i] += per_m;
+    wy[i] += per_m * y;
+    ww[i] += per_m * per_m;
+  }
+}
+
+/// What a row's loop needs to tell wall from floor; planes by their 1 / z on the ray (x, y, 1).
+struct OnWallRule {
+  float wall_per_x;  ///< 1 / z of the wall grows so much per ray's x,
+  float wall_per_m;  ///< from this
+  float floor_per_x;
+  float floor_per_m;
+  float unit_m;
+  float off_per_m;
+  float behind_per_m;
+};
+
+ROOMWISE_MULTIVERSION
+void relabel_row(const std::uint16_t* steps, const float* ray_x, OnWallRule rule, std::size_t count,
+                 std::uint8_t* __restrict labels) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const int label = labels[i];
+    const float z_m = rule.unit_m * static_cast<float>(steps[i]);
+    const float wall_per_m = rule.wall_per_x * ray_x[i] + rule.wall_per_m;
+    const float floor_per_m = rule.floor_per_x * ray_x[i] + rule.floor_per_m;
+    const int is_on_wall = std::abs(wall_per_m * z_m - 1.0F) <= rule.off_per_m * z_m ? 1 : 0;
+    const int is_foot = wall_per_m + rule.behind_per_m > floor_per_m ? is_on_wall : 0;
+    int becomes_wall = label == kObstacle ? is_on_wall : 0;
+    becomes_wall = label == kAccessible ? is_foot : becomes_wall;
+    labels[i] = static_cast<std::uint8_t>(becomes_wall != 0 ? static_cast<int>(kWall) : label);
+  }
+}
 
 }  // namespace
 
@@ -32,45 +81,64 @@ void WallCells::mark(const RgbdFrame& frame, const CameraView& view, const Floor
   members_.reserve(cells_.size());
   patch_is_wall_.reserve(cells_.size());
   for (int row = 0; row < rows_; ++row) {
+    sum_columns(frame, view, labels, row);
     for (int column = 0; column < columns_; ++column) {
-      cells_[static_cast<std::size_t>(row * columns_ + column)] =
-          fit(frame, view, floor, labels, column, row);
+      cells_[static_cast<std::size_t>(row * columns_ + column)] = fit(view, floor, column, row);
     }
   }
   join(floor);
   relabel(frame, view, floor, labels);
 }
 
-WallCells::Cell WallCells::fit(const RgbdFrame& frame, const CameraView& view,
-                               const FloorPlane& floor, const std::vector<std::uint8_t>& labels,
-                               int column, int row) const {
+/// Row of a cell's middle.
+std::size_t WallCells::middle_row(const CameraView& view, int row) {
+  const int end = std::min((row + 1) * kCell_px, view.height_px());
+  return static_cast<std::size_t>((row * kCell_px + end) / 2);
+}
+
+void WallCells::sum_columns(const RgbdFrame& frame, const CameraView& view,
+                            const std::vector<std::uint8_t>& labels, int row) {
+  const auto width = static_cast<std::size_t>(view.width_px());
+  const std::size_t count = (width + kStride_px - 1) / kStride_px;
+  for (auto* sums : {&sums_.n, &sums_.ny, &sums_.nyy, &sums_.w, &sums_.wy, &sums_.ww}) {
+    sums->assign(count, 0.0F);
+  }
+  const float middle_y = view.ray_y()[middle_row(view, row)];
+  const int v_end = std::min((row + 1) * kCell_px, view.height_px());
+  for (int v = row * kCell_px; v < v_end; v += kStride_px) {
+    const std::size_t first = static_cast<std::size_t>(v) * width;
+    add_row(frame.depth.steps.data() + first, labels.data() + first,
+            view.ray_y()[static_cast<std::size_t>(v)] - middle_y, static_cast<float>(view.unit_m()),
+            count, sums_.n.data(), sums_.ny.data(), sums_.nyy.data(), sums_.w.data(),
+            sums_.wy.data(), sums_.ww.data());
+  }
+}
+
+/// Least squares of 1 / depth = m0 . (x, y, 1) over the obstacle pixels of a cell.
+WallCells::Cell WallCells::fit(const CameraView& view, const FloorPlane& floor, int column,
+                               int row) const {
+  const int u_end = std::min((column + 1) * kCell_px, view.width_px());
+  const float x0 = view.ray_x()[static_cast<std::size_t>((column * kCell_px + u_end) / 2)];
+  const float y0 = view.ray_y()[middle_row(view, row)];
   Eigen::Matrix3f normal_matrix = Eigen::Matrix3f::Zero();
   Eigen::Vector3f right_side = Eigen::Vector3f::Zero();
   float sum_squared = 0.0F;
-  int count = 0;
-  const int u_end = std::min((column + 1) * kCell_px, view.width_px());
-  const int v_end = std::min((row + 1) * kCell_px, view.height_px());
-  const float x0 = view.ray_x()[static_cast<std::size_t>((column * kCell_px + u_end) / 2)];
-  const float y0 = view.ray_y()[static_cast<std::size_t>((row * kCell_px + v_end) / 2)];
-  const auto unit_m = static_cast<float>(view.unit_m());
-  const auto width = static_cast<std::size_t>(view.width_px());
-  for (int v = row * kCell_px; v < v_end; v += kStride_px) {
-    for (int u = column * kCell_px; u < u_end; u += kStride_px) {
-      const std::size_t pixel = static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u);
-      if (labels[pixel] != kObstacle) continue;
-      const float inverse_depth = 1.0F / (unit_m * static_cast<float>(frame.depth.steps[pixel]));
-      const Eigen::Vector3f a(view.ray_x()[static_cast<std::size_t>(u)] - x0,
-                              view.ray_y()[static_cast<std::size_t>(v)] - y0, 1.0F);
-      normal_matrix.noalias() += a * a.transpose();
-      right_side += inverse_depth * a;
-      sum_squared += inverse_depth * inverse_depth;
-      ++count;
-    }
+  for (int u = column * kCell_px; u < u_end; u += kStride_px) {
+    const auto i = static_cast<std::size_t>(u / kStride_px);
+    const float x = view.ray_x()[static_cast<std::size_t>(u)] - x0;
+    const float n = sums_.n[i];
+    const float ny = sums_.ny[i];
+    Eigen::Matrix3f products;
+    products << x * x * n, x * ny, x * n, x * ny, sums_.nyy[i], ny, x * n, ny, n;
+    normal_matrix += products;
+    right_side += Eigen::Vector3f(x * sums_.w[i], sums_.wy[i], sums_.w[i]);
+    sum_squared += sums_.ww[i];
   }
+  const float count = normal_matrix(2, 2);
   Cell cell;
   if (count < kPixelsMin) return cell;
   const Eigen::Vector3f m0 = normal_matrix.ldlt().solve(right_side);
-  const float mean_squared = (sum_squared - m0.dot(right_side)) / static_cast<float>(count);
+  const float mean_squared = (sum_squared - m0.dot(right_side)) / count;
   const float residual_quanta = std::sqrt(std::max(0.0F, mean_squared)) / quantum_per_m_;
   cell.m = Eigen::Vector3f(m0.x(), m0.y(), m0.z() - m0.x() * x0 - m0.y() * y0);
   const float rise = cell.m.normalized().dot(floor.normal.cast<float>());
@@ -185,24 +253,21 @@ void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int
                              std::vector<std::uint8_t>& labels) const {
   const int u_end = std::min((column + 1) * kCell_px, view.width_px());
   const int v_end = std::min((row + 1) * kCell_px, view.height_px());
-  const auto unit_m = static_cast<float>(view.unit_m());
-  const float off_max = kOnWall_quanta * quantum_per_m_;
-  const float behind_max = kWallFoot_quanta * quantum_per_m_;
+  const auto first = static_cast<std::size_t>(column * kCell_px);
+  const std::size_t count = static_cast<std::size_t>(u_end) - first;
   for (int v = row * kCell_px; v < v_end; ++v) {
     const float y = view.ray_y()[static_cast<std::size_t>(v)];
-    const auto first = static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px());
-    for (auto u = static_cast<std::size_t>(column * kCell_px); u < static_cast<std::size_t>(u_end);
-         ++u) {
-      std::uint8_t& label = labels[first + u];
-      if (label != kObstacle && label != kAccessible) continue;
-      const Eigen::Vector3f ray(view.ray_x()[u], y, 1.0F);
-      const float z_m = unit_m * static_cast<float>(frame.depth.steps[first + u]);
-      const float wall_per_m = plane_m.dot(ray);
-      const bool is_on_wall = std::abs(wall_per_m * z_m - 1.0F) <= off_max * z_m;
-      const bool is_before_floor = wall_per_m + behind_max > floor_m.dot(ray);
-      if (!is_on_wall || (label == kAccessible && !is_before_floor)) continue;
-      label = kWall;
-    }
+    const std::size_t pixel =
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px()) + first;
+    relabel_row(frame.depth.steps.data() + pixel, view.ray_x().data() + first,
+                {.wall_per_x = plane_m.x(),
+                 .wall_per_m = plane_m.y() * y + plane_m.z(),
+                 .floor_per_x = floor_m.x(),
+                 .floor_per_m = floor_m.y() * y + floor_m.z(),
+                 .unit_m = static_cast<float>(view.unit_m()),
+                 .off_per_m = kOnWall_quanta * quantum_per_m_,
+                 .behind_per_m = kWallFoot_quanta * quantum_per_m_},
+                count, labels.data() + pixel);
   }
 }
 

@@ -30,8 +30,14 @@ class WallCells {
     Eigen::Vector3f m;           ///< plane: m . p = 1
     Eigen::Vector3f p_camera_m;  ///< of its middle
   };
-  Cell fit(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
-           const std::vector<std::uint8_t>& labels, int column, int row) const;
+  /// Of the obstacle pixels looked at in one row of cells, by image column.
+  struct ColumnSums {
+    std::vector<float> n, ny, nyy, w, wy, ww;
+  };
+  static std::size_t middle_row(const CameraView& view, int row);
+  void sum_columns(const RgbdFrame& frame, const CameraView& view,
+                   const std::vector<std::uint8_t>& labels, int row);
+  Cell fit(const CameraView& view, const FloorPlane& floor, int column, int row) const;
   void join(const FloorPlane& floor);
   void grow(std::size_t start, int patch);
   bool is_wall(const FloorPlane& floor) const;
@@ -48,6 +54,7 @@ class WallCells {
   float quantum_per_m_ = 0.0F;
   int columns_ = 0;
   int rows_ = 0;
+  ColumnSums sums_;
   std::vector<Cell> cells_;
   std::vector<std::size_t> members_;  // of the patch being grown
   std::vector<char> patch_is_wall_;

@@ -155,6 +155,7 @@ void ColorEvidence::weigh(double taught_share_ratio) {
       if (taught_share > 0.0F) p += taught_share * (taught_->histogram[i][k] - p);
       scores_[i][k] = w * std::log((1.0F - kUnseen_ratio) * p + kUnseen_ratio / kBinCount);
     }
+    wall_lead_[i] = scores_[i][1] - scores_[i][0];
   }
 }
 

@@ -53,6 +53,8 @@ class ColorEvidence {
   void end();
 
   const ClassScores& of(std::size_t bin) const { return scores_[bin]; }
+  /// of(bin)'s wall less its obstacle, in a table small enough to stay in the first cache.
+  float wall_lead(std::size_t bin) const { return wall_lead_[bin]; }
   /// w: 0 where colour says nothing.
   double reliability_ratio() const { return reliability_ratio_; }
 
@@ -75,6 +77,7 @@ class ColorEvidence {
   GreySums frame_grey_;
   std::optional<Taught> taught_;
   std::vector<ClassScores> scores_ = std::vector<ClassScores>(kBins);
+  std::vector<float> wall_lead_ = std::vector<float>(kBins);
   double reliability_ratio_ = 0.0;
 };
 
