@@ -28,7 +28,7 @@ struct SegmentParams {
 
   template <class Field>
   void visit_fields(Field&& field) {
-    field("model", model, {"geometry", "gaussian", "mixture", "fused"});
+    field("model", model, {"geometry", "gaussian", "mixture", "edges", "fused"});
     field("model_path", model_path);
     field("training_statistics", training_statistics, {"average", "threshold"});
     field("color_needs_depth", color_needs_depth);

@@ -2,10 +2,20 @@
 
 #include <algorithm>
 
+#include "services/segment_svc/core/edges/edge_labels.h"
 #include "services/segment_svc/core/floor_frame.h"
 #include "services/segment_svc/core/labels.h"
 
 namespace roomwise::segment {
+namespace {
+
+void forget_unread(const DepthImage& depth, std::vector<std::uint8_t>& labels) {
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (depth.steps[i] == 0) labels[i] = kUnknown;
+  }
+}
+
+}  // namespace
 
 Segmenter::Segmenter(const SegmentParams& params)
     : params_(params),
@@ -63,6 +73,11 @@ const char* Segmenter::label(const RgbdFrame& frame, Segmentation& result) {
     paint(
         frame, [&](const std::uint8_t* rgb) { return table_->classify(rgb); }, labels);
     return "mixture";
+  }
+  if (params_.model == "edges") {
+    labels = label_by_edges(frame.color, *table_, view_.width_px(), view_.height_px());
+    if (params_.color_needs_depth) forget_unread(frame.depth, labels);
+    return "edges";
   }
   return "geometry";
 }

@@ -34,8 +34,9 @@ struct Segmentation {
 ///
 /// Floor, free range and corridor always come from geometry. The label image, and what is summed up
 /// from it, comes from the model: "geometry"; "fused", geometry judged again by colour; or, once
-/// taught and where a frame has colour, "gaussian", the thesis's grey Gaussians, or "mixture",
-/// mixtures of Gaussians over colour.
+/// taught and where a frame has colour, "gaussian", the thesis's grey Gaussians, "mixture",
+/// mixtures of Gaussians over colour, or "edges", those on the regions between edges ("edges"
+/// allocates).
 class Segmenter {
  public:
   explicit Segmenter(const SegmentParams& params);
