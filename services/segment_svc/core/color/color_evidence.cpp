@@ -7,6 +7,7 @@ namespace roomwise::segment {
 namespace {
 
 constexpr std::size_t kClassCount = kTrainedClasses.size();
+constexpr std::size_t kFloorIndex = 2;
 constexpr float kBinCount = static_cast<float>(ColorEvidence::kBins);
 
 constexpr double kForgetting_ratio = 0.995;  ///< a frame: half is forgotten in five seconds
@@ -133,8 +134,13 @@ double ColorEvidence::reliability() const {
   return brightness_ratio * std::exp(-0.5 * divergence_from(seen));
 }
 
+/// Floor is what geometry is surest of, so its grey tells the light; whether the other classes look
+/// as taught tells more of geometry.
 double ColorEvidence::taught_share_ratio() const {
-  return taught_ ? kTaught_ratio * std::exp(-0.5 * divergence_from(taught_->grey)) : 0.0;
+  if (!taught_) return 0.0;
+  const GreySums& floor = frame_greys_[kFloorIndex];
+  if (floor.weight() < kWeightMin) return taught_share_ratio_;
+  return kTaught_ratio * std::exp(-0.5 * divergence(floor.gaussian(), taught_->grey[kFloorIndex]));
 }
 
 void ColorEvidence::end() {
@@ -143,12 +149,13 @@ void ColorEvidence::end() {
     seen_greys_[k].fade(kForgetting_ratio);
     seen_greys_[k].add(frame_greys_[k]);
   }
-  if (reliability_ratio_ > 0.0) weigh(taught_share_ratio());
+  taught_share_ratio_ = taught_share_ratio();
+  if (reliability_ratio_ > 0.0) weigh();
 }
 
-void ColorEvidence::weigh(double taught_share_ratio) {
+void ColorEvidence::weigh() {
   const auto w = static_cast<float>(reliability_ratio_);
-  const auto taught_share = static_cast<float>(taught_share_ratio);
+  const auto taught_share = static_cast<float>(taught_share_ratio_);
   for (std::size_t i = 0; i < kBins; ++i) {
     for (std::size_t k = 0; k < kClassCount; ++k) {
       float p = (seen_[i][k] + kFirst_weight / kBinCount) / (seen_weight_[k] + kFirst_weight);

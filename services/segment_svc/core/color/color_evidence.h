@@ -36,7 +36,8 @@ double divergence(const GreyGaussian& from, const GreyGaussian& to);
 /// taught outweighs what was seen. How far colour is believed,
 ///   w = clamp((L - 20) / 60) exp(-D / 2),  L the frame's mean grey level,
 /// D the divergence of the classes' grey levels in this frame from what was seen before, is 0 in
-/// the dark and small when the light has changed; what was taught is believed by its own D.
+/// the dark and small when the light has changed; what was taught is believed by the D of
+/// the floor's grey levels from those taught.
 class ColorEvidence {
  public:
   static constexpr std::size_t kBins = 16 * 16 * 16;
@@ -68,7 +69,7 @@ class ColorEvidence {
   double divergence_from(const GreyClassifier::Gaussians& known) const;
   double reliability() const;
   double taught_share_ratio() const;
-  void weigh(double taught_share_ratio);
+  void weigh();
 
   std::vector<ClassScores> seen_ = std::vector<ClassScores>(kBins);  ///< weights, forgotten slowly
   ClassScores seen_weight_{};
@@ -79,6 +80,7 @@ class ColorEvidence {
   std::vector<ClassScores> scores_ = std::vector<ClassScores>(kBins);
   std::vector<float> wall_lead_ = std::vector<float>(kBins);
   double reliability_ratio_ = 0.0;
+  double taught_share_ratio_ = 0.0;
 };
 
 }  // namespace roomwise::segment

@@ -4,6 +4,7 @@ import { CameraPanel } from "./camera_panel";
 import { Connection } from "./connection";
 import { Drive } from "./drive";
 import { Frames } from "./frames";
+import { followLabels } from "./labels_legend";
 import { ReplayBar } from "./replay_bar";
 import { StatePanels } from "./state_panels";
 
@@ -17,6 +18,7 @@ new StatePanels(connection);
 new ReplayBar(connection);
 const frames = new Frames(connection);
 new CameraPanel(connection, frames);
+followLabels(connection);
 
 await Promise.race([frames.firstShown, new Promise((resolve) => setTimeout(resolve, LONGEST_WAIT_MS))]);
 const { openInstruments } = await import("./instruments");
