@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "logs/tools/whole_file.h"
@@ -53,6 +54,17 @@ JpegImage read_color_as_jpeg(const std::filesystem::path& path) {
   const bool reencode = !is_jpeg(bytes);
   if (reencode) cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   return {image.cols, image.rows, std::move(bytes), reencode};
+}
+
+JpegImage encode_jpeg(const ColorImage& color) {
+  if (color.empty()) return {};
+  const cv::Mat3b rgb(color.height_px, color.width_px,
+                      reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(color.rgb.data())));
+  cv::Mat3b bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  JpegImage jpeg{.width_px = bgr.cols, .height_px = bgr.rows, .bytes = {}, .reencoded = true};
+  cv::imencode(".jpg", bgr, jpeg.bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  return jpeg;
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat3b& image) {

@@ -27,6 +27,9 @@ struct JpegImage {
 /// Throws std::runtime_error naming the file if it is no image.
 JpegImage read_color_as_jpeg(const std::filesystem::path& path);
 
+/// Encodes a colour image at quality 90. Without bytes if the image is empty.
+JpegImage encode_jpeg(const ColorImage& color);
+
 /// Writes `image` (8 bit, blue green red) as PNG, whole or not at all. Throws std::runtime_error
 /// naming the file.
 void write_png(const std::filesystem::path& path, const cv::Mat3b& image);

@@ -1,6 +1,7 @@
 // rwlog: looks into, makes, converts and scores logs.
 #include <fmt/core.h>
 
+#include "logs/tools/import_oni.h"
 #include "logs/tools/smooth.h"
 #include "logs/tools/subcommands.h"
 
@@ -17,6 +18,7 @@ void add_subcommands(CLI::App& rwlog) {
   add_import_tum(import);
   add_import_mrclam(import);
   add_import_fakenect(import);
+  add_import_oni(import);
   CLI::App& convert =
       *rwlog.add_subcommand("export", "Makes text, a picture or another format of a log.");
   convert.require_subcommand(1);

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/openni2/openni_error.h"
+#include "common/openni2/openni_images.h"
 #include "services/kinect_pub/core/camera_geometry.h"
-#include "services/kinect_pub/device/openni_error.h"
-#include "services/kinect_pub/device/openni_images.h"
 
 namespace roomwise {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "services/kinect_pub/device/openni_error.h"
+#include "common/openni2/openni_error.h"
 
 namespace roomwise {
 

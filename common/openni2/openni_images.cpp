@@ -1,4 +1,4 @@
-#include "services/kinect_pub/device/openni_images.h"
+#include "common/openni2/openni_images.h"
 
 #include <algorithm>
 #include <cstring>
