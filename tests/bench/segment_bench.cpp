@@ -114,15 +114,22 @@ void opencv_classification(benchmark::State& state) {
 }
 BENCHMARK(opencv_classification)->Name("classes/opencv/vga")->Unit(benchmark::kMillisecond);
 
-void whole_frame(benchmark::State& state) {
-  roomwise::segment::Segmenter segmenter(roomwise::segment::SegmentParams{});
+void whole_frame(benchmark::State& state, const char* model) {
+  roomwise::segment::SegmentParams params;
+  params.model = model;
+  roomwise::segment::Segmenter segmenter(params);
   roomwise::segment::Segmentation result;
   for (auto _ : state) {
     segmenter.segment(frame(), result);
     benchmark::DoNotOptimize(result.labels.data());
   }
 }
-BENCHMARK(whole_frame)->Name("frame/geometry/vga")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(whole_frame, geometry, "geometry")
+    ->Name("frame/geometry/vga")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(whole_frame, fused, "fused")
+    ->Name("frame/fused/vga")
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

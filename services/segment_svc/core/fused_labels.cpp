@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/multiversion.h"
 #include "services/segment_svc/core/class_prior.h"
 #include "services/segment_svc/core/labels.h"
 
@@ -32,21 +33,19 @@ bool is_doubtful(const ClassScores& log_scores) {
          log_scores[kAccessibleIndex];
 }
 
-/// What the colours of a row say.
-struct WithColor {
-  const ColorEvidence& evidence;
-  const ColorGrid& grid;
-  const std::uint8_t* row;
-
-  std::size_t bin(std::size_t u) const { return ColorEvidence::bin(grid.at(row, u)); }
-  const ClassScores& of(std::size_t u) const { return evidence.of(bin(u)); }
-  float wall_lead(std::size_t u) const { return evidence.wall_lead(bin(u)); }
-};
-
-struct WithoutColor {
-  static ClassScores of(std::size_t /*u*/) { return {}; }
-  static float wall_lead(std::size_t /*u*/) { return 0.0F; }
-};
+/// Wall where it is likelier than obstacle, among what stands up. `lead`: by how much colour has
+/// wall ahead, for each bin.
+ROOMWISE_MULTIVERSION
+void judge_standing(const std::uint16_t* bins, const float* lead, float lead_if_wall,
+                    float lead_if_obstacle, std::size_t width, std::uint8_t* __restrict labels) {
+  for (std::size_t u = 0; u < width; ++u) {
+    const int label = labels[u];
+    const float known = label == kWall ? lead_if_wall : lead_if_obstacle;
+    const int judged = known + lead[bins[u]] > 0.0F ? kWall : kObstacle;
+    const int if_obstacle = label == kObstacle ? judged : label;
+    labels[u] = static_cast<std::uint8_t>(label == kWall ? judged : if_obstacle);
+  }
+}
 
 }  // namespace
 
@@ -54,6 +53,14 @@ const ClassScores& FusedLabels::RowScores::of(std::uint8_t label) const {
   if (label == kAccessible) return accessible;
   if (label == kObstacle) return obstacle;
   return label == kWall ? wall : unknown;
+}
+
+FusedLabels::RowScores FusedLabels::RowScores::probabilities() const {
+  return {.obstacle = normalised(obstacle),
+          .wall = normalised(wall),
+          .accessible = normalised(accessible),
+          .unknown = normalised(unknown),
+          .judges_floor = judges_floor};
 }
 
 void FusedLabels::correct(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
@@ -66,13 +73,11 @@ void FusedLabels::correct(const RgbdFrame& frame, const CameraView& view, const 
     color_is_used_ = evidence_.reliability_ratio() > 0.0;
   }
   const auto width = static_cast<std::size_t>(view.width_px());
+  bins_.assign(width, 0);
   for (std::size_t v = 0; v < rows_.size(); ++v) {
     std::uint8_t* row = labels.data() + v * width;
-    if (color_is_used_) {
-      correct_row(width, rows_[v], WithColor{evidence_, colors_, colors_.row(v)}, row);
-    } else {
-      correct_row(width, rows_[v], WithoutColor{}, row);
-    }
+    if (color_is_used_) evidence_.bins_of_row(colors_, v, bins_);
+    correct_row(width, rows_[v], bins_.data(), row);
   }
 }
 
@@ -100,33 +105,37 @@ void FusedLabels::learn(const CameraView& view, const std::vector<std::uint8_t>&
   evidence_.begin();
   for (std::size_t v = step / 2; v < rows_.size(); v += step) {
     const std::uint8_t* colors = colors_.row(v);
+    const RowScores by_geometry = rows_[v].probabilities();
     for (std::size_t u = step / 2; u < width; u += step) {
       const std::uint8_t label = labels[v * width + u];
       if (label == kUnknown || label == kDropOff) continue;
-      const ClassScores& known = rows_[v].of(label);
       const std::uint8_t* rgb = colors_.at(colors, u);
-      const ClassScores all = known + evidence_.of(ColorEvidence::bin(rgb));
-      evidence_.add(rgb, normalised(known), normalised(all));
+      const ClassScores all = rows_[v].of(label) + evidence_.of(ColorEvidence::bin(rgb));
+      evidence_.add(rgb, by_geometry.of(label), normalised(all));
     }
   }
   evidence_.end();
 }
 
-template <class Evidence>
-void FusedLabels::correct_row(std::size_t width, const RowScores& row, const Evidence& evidence,
-                              std::uint8_t* labels) {
-  const float lead_if_wall = row.wall[kWallIndex] - row.wall[kObstacleIndex];
-  const float lead_if_obstacle = row.obstacle[kWallIndex] - row.obstacle[kObstacleIndex];
-  for (std::size_t u = 0; u < width; ++u) {
-    const std::uint8_t label = labels[u];
-    if (label == kAccessible) {
-      if (row.judges_floor && is_doubtful(row.accessible + evidence.of(u))) labels[u] = kUnknown;
-    } else if (label == kObstacle || label == kWall) {
-      const float lead = label == kWall ? lead_if_wall : lead_if_obstacle;
-      labels[u] = lead + evidence.wall_lead(u) > 0.0F ? kWall : kObstacle;
-    } else if (label == kUnknown) {
-      labels[u] = sure_standing(row.unknown + evidence.of(u));
-    }
+void FusedLabels::correct_row(std::size_t width, const RowScores& row, const std::uint16_t* bins,
+                              std::uint8_t* labels) const {
+  const auto evidence = [&](std::size_t u) {
+    return color_is_used_ ? evidence_.of(bins[u]) : ClassScores{};
+  };
+  static constexpr std::array<float, ColorEvidence::kBins> kNone{};
+  judge_standing(bins, color_is_used_ ? evidence_.wall_lead().data() : kNone.data(),
+                 row.wall[kWallIndex] - row.wall[kObstacleIndex],
+                 row.obstacle[kWallIndex] - row.obstacle[kObstacleIndex], width, labels);
+  std::uint8_t* const end = labels + width;
+  for (std::uint8_t* at = std::find(labels, end, kUnknown); at != end;
+       at = std::find(at + 1, end, kUnknown)) {
+    *at = sure_standing(row.unknown + evidence(static_cast<std::size_t>(at - labels)));
+  }
+  if (!row.judges_floor) return;
+  for (std::uint8_t* at = std::find(labels, end, kAccessible); at != end;
+       at = std::find(at + 1, end, kAccessible)) {
+    const auto u = static_cast<std::size_t>(at - labels);
+    if (is_doubtful(row.accessible + evidence(u))) *at = kUnknown;
   }
 }
 

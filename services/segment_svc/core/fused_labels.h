@@ -36,18 +36,19 @@ class FusedLabels {
     ClassScores obstacle, wall, accessible, unknown;
     bool judges_floor = false;
     const ClassScores& of(std::uint8_t label) const;
+    RowScores probabilities() const;
   };
 
   void prepare_rows(const CameraView& view, const FloorPlane& floor);
   void learn(const CameraView& view, const std::vector<std::uint8_t>& labels);
-  template <class Evidence>
-  static void correct_row(std::size_t width, const RowScores& row, const Evidence& evidence,
-                          std::uint8_t* labels);
+  void correct_row(std::size_t width, const RowScores& row, const std::uint16_t* bins,
+                   std::uint8_t* labels) const;
 
   ColorEvidence evidence_;
   ColorGrid colors_;
   bool color_is_used_ = false;
   std::vector<RowScores> rows_;
+  std::vector<std::uint16_t> bins_;  ///< of a row's colours
 };
 
 }  // namespace roomwise::segment

@@ -17,7 +17,6 @@ constexpr float kFoot_quanta = 0.75F;  // in doubt, of two that differ by less, 
 struct FootRule {
   float rise;  // of the row
   float ahead;
-  float unit_m;
   float per_height_m;  // 1 / the camera's height
   float same_per_m;
   float foot_per_m;
@@ -26,18 +25,17 @@ struct FootRule {
 /// Choices one after another, no two in one condition: so the compiler makes selects of them and
 /// runs many pixels at a time.
 ROOMWISE_MULTIVERSION
-void mark_row(const std::uint16_t* steps, const float* rise_of_column, const float* ahead_of_column,
+void mark_row(const float* z_of_column_m, const float* rise_of_column, const float* ahead_of_column,
               FootRule rule, std::size_t width, float* __restrict surface_per_m,
-              float* __restrict rows, std::uint8_t* __restrict labels) {
+              float* __restrict rows, std::int32_t* __restrict labels) {
   for (std::size_t u = 0; u < width; ++u) {
     const float surface = surface_per_m[u];
     const float above = rows[u];
-    const int label = labels[u];
+    const std::int32_t label = labels[u];
     const float grown = above + 1.0F;
     const float count = grown < kRowsAveraged ? grown : kRowsAveraged;
-    const float z_m = rule.unit_m * static_cast<float>(steps[u] > 0 ? steps[u] : 1);
     const float per_ahead = 1.0F / (ahead_of_column[u] + rule.ahead);
-    const float per_m = per_ahead / z_m;
+    const float per_m = per_ahead / z_of_column_m[u];
     const float floor_per_m = -(rise_of_column[u] + rule.rise) * rule.per_height_m * per_ahead;
     const float off = per_m - surface;
 
@@ -55,8 +53,19 @@ void mark_row(const std::uint16_t* steps, const float* rise_of_column, const flo
     new_rows = stands != 0 ? new_rows : 0.0F;
     surface_per_m[u] = label == kUnknown ? surface : new_per_m;  // no reading ends nothing
     rows[u] = label == kUnknown ? above : new_rows;
-    labels[u] = static_cast<std::uint8_t>(is_foot != 0 ? static_cast<int>(kObstacle) : label);
+    labels[u] = is_foot != 0 ? std::int32_t{kObstacle} : label;
   }
+}
+
+/// Depths that can be divided by, and labels, of a row.
+ROOMWISE_MULTIVERSION
+void widen(const std::uint16_t* steps, float unit_m, const std::uint8_t* labels, std::size_t width,
+           float* __restrict z_m, std::int32_t* __restrict wide_labels) {
+  for (std::size_t u = 0; u < width; ++u) {
+    const int step = steps[u] > 0 ? steps[u] : 1;
+    z_m[u] = unit_m * static_cast<float>(step);
+  }
+  for (std::size_t u = 0; u < width; ++u) wide_labels[u] = labels[u];
 }
 
 /// So far above the first row whose rays meet the floor that a surface's mean has settled there.
@@ -84,16 +93,21 @@ void StandingSurfaces::mark(const RgbdFrame& frame, const CameraView& view, cons
   }
   surface_per_m_.assign(width, 0.0F);
   rows_.assign(width, 0.0F);
+  z_m_.resize(width);
+  label_.resize(width);
   for (std::size_t v = first_row(view, n); v < static_cast<std::size_t>(view.height_px()); ++v) {
     const float y = view.ray_y()[v];
-    mark_row(frame.depth.steps.data() + v * width, rise_of_column_.data(), ahead_of_column_.data(),
+    std::uint8_t* row = labels.data() + v * width;
+    widen(frame.depth.steps.data() + v * width, static_cast<float>(view.unit_m()), row, width,
+          z_m_.data(), label_.data());
+    mark_row(z_m_.data(), rise_of_column_.data(), ahead_of_column_.data(),
              {.rise = n.y() * y + n.z(),
               .ahead = d.y() * y + d.z(),
-              .unit_m = static_cast<float>(view.unit_m()),
               .per_height_m = static_cast<float>(1.0 / floor.height_m),
               .same_per_m = kSame_quanta * view.quantum_per_m(),
               .foot_per_m = kFoot_quanta * view.quantum_per_m()},
-             width, surface_per_m_.data(), rows_.data(), labels.data() + v * width);
+             width, surface_per_m_.data(), rows_.data(), label_.data());
+    for (std::size_t u = 0; u < width; ++u) row[u] = static_cast<std::uint8_t>(label_[u]);
   }
 }
 

@@ -32,6 +32,8 @@ class StandingSurfaces {
   std::vector<float> ahead_of_column_;
   std::vector<float> surface_per_m_;  // mean 1/X of the obstacle right above
   std::vector<float> rows_;           // how many rows it was averaged over, 0: none
+  std::vector<float> z_m_;            // of a row; and its labels: all as wide as a float, so that
+  std::vector<std::int32_t> label_;   // the loop over them keeps to its registers
 };
 
 }  // namespace roomwise::segment

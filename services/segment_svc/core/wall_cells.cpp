@@ -54,20 +54,24 @@ struct OnWallRule {
   float behind_per_m;
 };
 
+/// As many pixels as a cell is wide, so that the compiler knows how many.
 ROOMWISE_MULTIVERSION
-void relabel_row(const std::uint16_t* steps, const float* ray_x, OnWallRule rule, std::size_t count,
+void relabel_row(const std::uint16_t* steps, const float* ray_x, OnWallRule rule,
                  std::uint8_t* __restrict labels) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const int label = labels[i];
-    const float z_m = rule.unit_m * static_cast<float>(steps[i]);
+  std::array<float, kCell_px> z_m;
+  std::array<std::int32_t, kCell_px> label;
+  for (std::size_t i = 0; i < kCell_px; ++i) z_m[i] = rule.unit_m * static_cast<float>(steps[i]);
+  for (std::size_t i = 0; i < kCell_px; ++i) label[i] = labels[i];
+  for (std::size_t i = 0; i < kCell_px; ++i) {
     const float wall_per_m = rule.wall_per_x * ray_x[i] + rule.wall_per_m;
     const float floor_per_m = rule.floor_per_x * ray_x[i] + rule.floor_per_m;
-    const int is_on_wall = std::abs(wall_per_m * z_m - 1.0F) <= rule.off_per_m * z_m ? 1 : 0;
+    const int is_on_wall = std::abs(wall_per_m * z_m[i] - 1.0F) <= rule.off_per_m * z_m[i] ? 1 : 0;
     const int is_foot = wall_per_m + rule.behind_per_m > floor_per_m ? is_on_wall : 0;
-    int becomes_wall = label == kObstacle ? is_on_wall : 0;
-    becomes_wall = label == kAccessible ? is_foot : becomes_wall;
-    labels[i] = static_cast<std::uint8_t>(becomes_wall != 0 ? static_cast<int>(kWall) : label);
+    int becomes_wall = label[i] == kObstacle ? is_on_wall : 0;
+    becomes_wall = label[i] == kAccessible ? is_foot : becomes_wall;
+    label[i] = becomes_wall != 0 ? std::int32_t{kWall} : label[i];
   }
+  for (std::size_t i = 0; i < kCell_px; ++i) labels[i] = static_cast<std::uint8_t>(label[i]);
 }
 
 }  // namespace
@@ -253,8 +257,9 @@ void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int
                              std::vector<std::uint8_t>& labels) const {
   const int u_end = std::min((column + 1) * kCell_px, view.width_px());
   const int v_end = std::min((row + 1) * kCell_px, view.height_px());
-  const auto first = static_cast<std::size_t>(column * kCell_px);
-  const std::size_t count = static_cast<std::size_t>(u_end) - first;
+  // A cell that the image's side cuts takes in its neighbour's last pixels; images are at least as
+  // wide as a cell.
+  const auto first = static_cast<std::size_t>(std::max(0, u_end - kCell_px));
   for (int v = row * kCell_px; v < v_end; ++v) {
     const float y = view.ray_y()[static_cast<std::size_t>(v)];
     const std::size_t pixel =
@@ -267,7 +272,7 @@ void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int
                  .unit_m = static_cast<float>(view.unit_m()),
                  .off_per_m = kOnWall_quanta * quantum_per_m_,
                  .behind_per_m = kWallFoot_quanta * quantum_per_m_},
-                count, labels.data() + pixel);
+                labels.data() + pixel);
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/multiversion.h"
+
 namespace roomwise::segment {
 namespace {
 
@@ -50,7 +52,25 @@ std::vector<ClassScores> histogram_of(const ClassMixtures& mixtures) {
   return histogram;
 }
 
+/// For colour pixels side by side.
+ROOMWISE_MULTIVERSION
+void bins_of(const std::uint8_t* rgb, std::size_t count, std::uint16_t* __restrict bins) {
+  for (std::size_t i = 0; i < count; ++i) {
+    bins[i] = static_cast<std::uint16_t>((rgb[3 * i] >> 4) << 8 | (rgb[3 * i + 1] >> 4) << 4 |
+                                         rgb[3 * i + 2] >> 4);
+  }
+}
+
 }  // namespace
+
+void ColorEvidence::bins_of_row(const ColorGrid& colors, std::size_t row,
+                                std::span<std::uint16_t> bins) {
+  const std::uint8_t* rgb = colors.row(row);
+  if (colors.is_one_to_one()) return bins_of(rgb, bins.size(), bins.data());
+  for (std::size_t u = 0; u < bins.size(); ++u) {
+    bins[u] = static_cast<std::uint16_t>(bin(colors.at(rgb, u)));
+  }
+}
 
 void GreySums::add(double grey_levels, double weight) {
   weight_ += weight;

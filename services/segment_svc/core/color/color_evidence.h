@@ -2,9 +2,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "services/segment_svc/core/color/class_scores.h"
+#include "services/segment_svc/core/color/color_grid.h"
 #include "services/segment_svc/core/color/color_model.h"
 
 namespace roomwise::segment {
@@ -54,8 +56,10 @@ class ColorEvidence {
   void end();
 
   const ClassScores& of(std::size_t bin) const { return scores_[bin]; }
-  /// of(bin)'s wall less its obstacle, in a table small enough to stay in the first cache.
-  float wall_lead(std::size_t bin) const { return wall_lead_[bin]; }
+  /// of(bin)'s wall less its obstacle for each bin: small enough to stay in the first cache.
+  const std::vector<float>& wall_lead() const { return wall_lead_; }
+  /// Bins of the colours of a row of the depth image.
+  static void bins_of_row(const ColorGrid& colors, std::size_t row, std::span<std::uint16_t> bins);
   /// w: 0 where colour says nothing.
   double reliability_ratio() const { return reliability_ratio_; }
 

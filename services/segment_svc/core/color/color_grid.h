@@ -28,6 +28,8 @@ class ColorGrid {
   const std::uint8_t* row(std::size_t v) const {
     return rgb_ + 3 * color_width_ * (v * color_height_ / height_);
   }
+  /// Whether each pixel of a row has a colour of its own, in order.
+  bool is_one_to_one() const { return byte_of_column_.size() == color_width_; }
   /// Red, green and blue of a pixel, from its row's start.
   const std::uint8_t* at(const std::uint8_t* row, std::size_t u) const {
     return row + byte_of_column_[u];
