@@ -52,6 +52,13 @@ struct OniRecording::Streams {
   }
 };
 
+/// OpenNI2's player (2.2.0.33) looks at its streams while they are freed, and crashes: a recording
+/// that was opened stays so until the process ends.
+void OniRecording::keep_open(std::unique_ptr<Streams> streams) {
+  static auto& kept = *new std::vector<std::unique_ptr<Streams>>();
+  kept.push_back(std::move(streams));
+}
+
 OniRecording::OniRecording(const std::filesystem::path& path)
     : path_(path), streams_(std::make_unique<Streams>()) {
   if (!std::filesystem::is_regular_file(path)) {
@@ -83,12 +90,9 @@ OniRecording::OniRecording(const std::filesystem::path& path)
   }
 }
 
-/// OpenNI2's player (2.2.0.33) looks at its streams while they are freed, and crashes: a recording
-/// that was opened stays so until the process ends.
 OniRecording::~OniRecording() {
   streams_->pairing = Pairing(kPairTolerance_us);  // images must go before their streams
-  static auto& kept = *new std::vector<std::unique_ptr<Streams>>();
-  kept.push_back(std::move(streams_));
+  keep_open(std::move(streams_));
 }
 
 void OniRecording::refuse(const std::string& what) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace roomwise::segment {
@@ -18,5 +19,6 @@ inline constexpr std::array<Label, 5> kLabels = {kObstacle, kDropOff, kWall, kAc
 
 /// What a person teaches with rectangles (thesis, section 4.3), in ascending order of label.
 inline constexpr std::array<Label, 3> kTrainedClasses = {kObstacle, kWall, kAccessible};
+inline constexpr std::size_t kTrainedClassCount = kTrainedClasses.size();
 
 }  // namespace roomwise::segment

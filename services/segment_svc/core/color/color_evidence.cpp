@@ -8,7 +8,6 @@
 namespace roomwise::segment {
 namespace {
 
-constexpr std::size_t kClassCount = kTrainedClasses.size();
 constexpr std::size_t kFloorIndex = 2;
 constexpr float kBinCount = static_cast<float>(ColorEvidence::kBins);
 
@@ -38,14 +37,14 @@ std::vector<ClassScores> histogram_of(const ClassMixtures& mixtures) {
                                              level(i % kFine)};
     const ColorFeature x = color_feature(rgb[0], rgb[1], rgb[2]);
     const double volume = 1.0 / ((rgb[0] + 1.0) * (rgb[1] + 1.0) * (rgb[2] + 1.0));
-    for (std::size_t k = 0; k < kClassCount; ++k) {
+    for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
       const auto share = static_cast<float>(std::exp(mixtures[k].log_likelihood(x)) * volume);
       histogram[ColorEvidence::bin(rgb.data())][k] += share;
       sum[k] += share;
     }
   }
   for (ClassScores& bin : histogram) {
-    for (std::size_t k = 0; k < kClassCount; ++k) {
+    for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
       bin[k] = sum[k] > 0.0F ? bin[k] / sum[k] : 1.0F / kBinCount;
     }
   }
@@ -121,7 +120,7 @@ void ColorEvidence::add(const std::uint8_t* rgb, const ClassScores& by_geometry,
   const std::uint8_t grey = grey_level(rgb[0], rgb[1], rgb[2]);
   frame_grey_.add(grey, 1.0);
   ClassScores& seen = seen_[bin(rgb)];
-  for (std::size_t k = 0; k < kClassCount; ++k) {
+  for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
     frame_greys_[k].add(grey, static_cast<double>(by_geometry[k]));
     seen[k] += all[k];
     seen_weight_[k] += all[k];
@@ -132,7 +131,7 @@ void ColorEvidence::add(const std::uint8_t* rgb, const ClassScores& by_geometry,
 double ColorEvidence::divergence_from(const GreyClassifier::Gaussians& known) const {
   double sum = 0.0;
   double weight = 0.0;
-  for (std::size_t k = 0; k < kClassCount; ++k) {
+  for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
     if (frame_greys_[k].weight() < kWeightMin) continue;
     sum += frame_greys_[k].weight() * divergence(frame_greys_[k].gaussian(), known[k]);
     weight += frame_greys_[k].weight();
@@ -146,7 +145,7 @@ double ColorEvidence::reliability() const {
       (frame_grey_.gaussian().mean_levels - kDark_levels) / (kBright_levels - kDark_levels), 0.0,
       1.0);
   GreyClassifier::Gaussians seen;
-  for (std::size_t k = 0; k < kClassCount; ++k) {
+  for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
     // What was not seen before differs from nothing.
     const GreySums& sums = seen_greys_[k].weight() > 0.0 ? seen_greys_[k] : frame_greys_[k];
     if (sums.weight() > 0.0) seen[k] = sums.gaussian();
@@ -165,7 +164,7 @@ double ColorEvidence::taught_share_ratio() const {
 
 void ColorEvidence::end() {
   reliability_ratio_ = reliability();
-  for (std::size_t k = 0; k < kClassCount; ++k) {
+  for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
     seen_greys_[k].fade(kForgetting_ratio);
     seen_greys_[k].add(frame_greys_[k]);
   }
@@ -177,7 +176,7 @@ void ColorEvidence::weigh() {
   const auto w = static_cast<float>(reliability_ratio_);
   const auto taught_share = static_cast<float>(taught_share_ratio_);
   for (std::size_t i = 0; i < kBins; ++i) {
-    for (std::size_t k = 0; k < kClassCount; ++k) {
+    for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
       float p = (seen_[i][k] + kFirst_weight / kBinCount) / (seen_weight_[k] + kFirst_weight);
       if (taught_share > 0.0F) p += taught_share * (taught_->histogram[i][k] - p);
       scores_[i][k] = w * std::log((1.0F - kUnseen_ratio) * p + kUnseen_ratio / kBinCount);

@@ -8,15 +8,13 @@
 namespace roomwise::segment {
 namespace {
 
-constexpr std::size_t kClassCount = kTrainedClasses.size();
-
 /// A mixture of few parts needs no more, and a service that is taught must not stand still.
 constexpr std::size_t kSamplesMax = 1500;
 
 /// Lamps and shadows change a surface's colour by a few per cent even where it looks plain.
 constexpr double kVarianceMin = 1e-3;
 
-/// Index of a class; kClassCount if the label is none.
+/// Index of a class; kTrainedClassCount if the label is none.
 std::size_t class_index(int label) {
   const auto found = std::find(kTrainedClasses.begin(), kTrainedClasses.end(), label);
   return static_cast<std::size_t>(found - kTrainedClasses.begin());
@@ -90,16 +88,16 @@ std::variant<ColorModel, TrainingFault> train(const ColorImage& color,
                                               std::span<const TrainingRectangle> rectangles,
                                               GreyStatistics how) {
   if (color.empty()) return TrainingFault::kNoColor;
-  std::array<Colors, kClassCount> colors;
+  std::array<Colors, kTrainedClassCount> colors;
   for (const TrainingRectangle& rectangle : rectangles) {
     const std::size_t k = class_index(rectangle.label);
-    if (k == kClassCount) return TrainingFault::kUnknownLabel;
+    if (k == kTrainedClassCount) return TrainingFault::kUnknownLabel;
     if (!lies_inside(rectangle, color)) return TrainingFault::kOutsideImage;
     add_pixels(color, rectangle, colors[k]);
   }
   GreyClassifier::Gaussians grey;
-  std::array<std::optional<Mixture>, kClassCount> mixtures;
-  for (std::size_t k = 0; k < kClassCount; ++k) {
+  std::array<std::optional<Mixture>, kTrainedClassCount> mixtures;
+  for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
     if (colors[k].empty()) return TrainingFault::kClassMissing;
     mixtures[k] = fit_best_mixture(samples_of(colors[k]), kMixturePartsMax,
                                    {.gain_min = 1e-4, .variance_min = kVarianceMin});
