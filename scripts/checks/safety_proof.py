@@ -4,11 +4,12 @@ A mutant is one place of one source changed: a comparison flipped or made to inc
 end, an arithmetic sign swapped, && and || swapped, a negation dropped, min for max. It is killed if
 it does not compile or if a test fails; one that lives shows what no test looks at. A comment
 `equivalent:` behind a line, or on the line before it, says why no change of it can be seen; such
-lines are left out.
+lines are left out. A comment `either bound:` says why it is all one whether the end of a range of
+real numbers belongs to it: of such a line those changes alone are left out.
 
-Test programs are built once. Per mutant the changed source alone is compiled,
-and the core is linked anew as a shared library: the examples run first, the laws, which take
-longer, on what survives them.
+Test programs are built once, and so are the headers of libraries. Per mutant the changed source
+alone is compiled, and the core is linked anew as a shared library: the examples run first, the
+laws, which take longer, on what survives them.
 """
 import argparse
 import concurrent.futures
@@ -29,8 +30,9 @@ FLAGS = ["-std=c++20", "-fPIC", "-ffp-contract=off", "-I", str(ROOT),
          "-isystem", "/usr/include/eigen3"]
 GTEST = ["-lgtest", "-lgtest_main", "-lpthread"]
 PATIENCE_S = 60
+LIBRARY_HEADERS = ("Eigen/Geometry", "algorithm", "array", "chrono", "cmath", "optional", "vector")
+BOUNDS = [(r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > ")]
 CHANGES = [
-    (r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "),
     (r" < ", " > "), (r" > ", " < "), (r" <= ", " > "), (r" >= ", " < "),
     (r" == ", " != "), (r" != ", " == "), (r" && ", " || "), (r" \|\| ", " && "),
     (r" \+ ", " - "), (r" - ", " + "), (r" \* ", " / "), (r" / ", " * "),
@@ -92,10 +94,12 @@ def mutants_of(text):
     for number, line in enumerate(lines):
         code = line.split("//")[0]
         before = lines[number - 1] if number > 0 else ""
-        is_equivalent = "// equivalent:" in line or before.lstrip().startswith("// equivalent:")
-        if is_equivalent or code.lstrip().startswith("#") or "static_assert" in code:
+        def says(word, line=line, before=before):
+            return f"// {word}:" in line or before.lstrip().startswith(f"// {word}:")
+
+        if says("equivalent") or code.lstrip().startswith("#") or "static_assert" in code:
             continue
-        for pattern, becomes in CHANGES:
+        for pattern, becomes in CHANGES if says("either bound") else BOUNDS + CHANGES:
             for found in re.finditer(pattern, code):
                 changed = line[:found.start()] + becomes + line[found.end():]
                 yield (number + 1, line.strip(), changed.strip(),
@@ -107,6 +111,10 @@ class Bench:
 
     def __init__(self, jobs):
         self.objects = built_together(core_sources(), WORK / "core", ["-O1"], jobs)
+        self.headers = WORK / "core/library_headers.h"
+        self.headers.write_text("".join(f"#include <{name}>\n" for name in LIBRARY_HEADERS))
+        must(["g++", *FLAGS, "-O1", "-x", "c++-header", self.headers, "-o",
+              f"{self.headers}.gch"])
         tests = built_together([SUPPORT, *EXAMPLES, LAWS], WORK / "tests", ["-O1"], jobs)
         self.link(self.objects, WORK / "core")
         self.programs = [WORK / "examples", WORK / "laws"]
@@ -139,7 +147,8 @@ class Bench:
         changed = folder / source.name
         changed.write_text(text)
         target = folder / "changed.o"
-        if run(["g++", *FLAGS, "-O1", "-c", changed, "-o", target]).returncode != 0:
+        if run(["g++", *FLAGS, "-O1", "-include", self.headers, "-c", changed, "-o",
+                target]).returncode != 0:
             return "the compiler"
         others = [o for o in self.objects if o.stem != source.stem]
         return self.passes(folder) if self.link([*others, target], folder) else "the linker"

@@ -66,7 +66,7 @@ class Limiter {
 
 /// The most of `is`'s kind that may follow `was` after `dt_s`: nothing is kept across a reversal.
 double most_after(double is, double was, double rate, double dt_s) {
-  const double kept = is * was > 0.0 ? std::abs(was) : 0.0;
+  const double kept = std::signbit(is) == std::signbit(was) ? std::abs(was) : 0.0;
   return kept + rate * dt_s;
 }
 
@@ -134,8 +134,11 @@ Decision decide(const Instant& now, const World& world, const Granted& before,
   limiter.limit_speed(params.speed_max_mps, Reason::kSpeedLimit);
   limiter.limit_turn_rate(params.turn_rate_max_radps, Reason::kSpeedLimit);
   ramp(now, before, decision, limiter);
-  if (granted.speed_mps > 0.0) go_ahead(now, world, params, decision, limiter);
-  if (granted.speed_mps < 0.0) go_back(decision, limiter);
+  if (granted.speed_mps > 0.0) {
+    go_ahead(now, world, params, decision, limiter);
+  } else {
+    go_back(decision, limiter);  // what turns on the spot has no speed to limit
+  }
   return decision;
 }
 

@@ -41,6 +41,8 @@ bool is_view(const FreeView& view) {
 
 bool is_in_view(double unknown_ratio) { return unknown_ratio < 1.0; }
 
+bool is_unread(double unknown_ratio) { return unknown_ratio > kUnknownRatio; }
+
 std::size_t first_in_view(const FreeView& view) {
   const auto& ratios = view.unknown_ratio;
   return static_cast<std::size_t>(std::find_if(ratios.begin(), ratios.end(), is_in_view) -
@@ -91,22 +93,23 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
     const double bearing_rad =
         view.first_bearing_rad + view.bearing_step_rad * static_cast<double>(bin);
     const double heading_rad = T_odom_robot.heading_rad + bearing_rad;
-    const bool is_dark = view.unknown_ratio[bin] > kUnknownRatio;
+    const bool is_dark = is_unread(view.unknown_ratio[bin]);
     const Eigen::Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
     return Ray{.p_odom_m = T_odom_robot.position_m(),
                .direction = direction,
                .free_m = std::clamp(view.free_range_m[bin], 0.0, kReach_m),
                .seen_from_m = view.floor_seen_from_m / std::cos(bearing_rad),
+               // either bound: no shadow is known to a bit.
                .is_dark = is_dark && dark_round_rad(view, bin) >= kShadow_rad,
                .end = view.has_drop_off ? Reason::kDropOff
                       : is_dark         ? Reason::kUnknown
                                         : Reason::kObstacle};
   };
   const std::size_t bins = view.free_range_m.size();
-  for (std::size_t bin = 0; bin < bins; ++bin) {
-    if (is_in_view(view.unknown_ratio[bin])) was_in_view_[kEdgeBins + bin] = true;
+  for (std::size_t bin = 0; bin != bins; ++bin) {
+    if (is_in_view(view.unknown_ratio[bin])) was_in_view_.at(kEdgeBins + bin) = true;
   }
-  for (std::size_t bin = 0; bin < bins; ++bin) {
+  for (std::size_t bin = 0; bin != bins; ++bin) {
     const Ray ray = ray_of(bin);
     if (ray.sees_floor()) open(now, ray);
     if (!ray.sees_floor() && is_well_in_view(bin)) doubt(now, ray);
@@ -128,18 +131,20 @@ bool ObstacleMemory::is_well_in_view(std::size_t bin) const {
 
 double ObstacleMemory::dark_round_rad(const FreeView& view, std::size_t bin) const {
   const auto is_dark = [&](std::size_t k) {
-    return was_in_view_[kEdgeBins + k] && view.unknown_ratio[k] > kUnknownRatio;
+    return was_in_view_[kEdgeBins + k] && is_unread(view.unknown_ratio[k]);
   };
   std::size_t first = bin;
-  while (first > 0 && is_dark(first - 1)) --first;
+  while (first != 0 && is_dark(first - 1)) --first;
   std::size_t end = bin;
-  while (end < view.unknown_ratio.size() && is_dark(end)) ++end;
+  while (end != view.unknown_ratio.size() && is_dark(end)) ++end;
   return static_cast<double>(end - first) * std::abs(view.bearing_step_rad);
 }
 
 void ObstacleMemory::open(const Instant& now, const Ray& ray) {
+  // either bound: steps are half a cell, and the cell at the end is closed.
   for (double range_m = 0.0; range_m < ray.free_m; range_m += kStep_m) {
     const Eigen::Vector2d p_odom_m = ray.at(range_m);
+    // either bound: steps are half a cell.
     if (range_m >= ray.seen_from_m) {
       set(now, p_odom_m, Ground::kFree, Reason::kAsAsked);
     } else if (at(now, p_odom_m).ground == Ground::kUnknown) {
@@ -150,17 +155,19 @@ void ObstacleMemory::open(const Instant& now, const Ray& ray) {
 
 void ObstacleMemory::doubt(const Instant& now, const Ray& ray) {
   const double explained_to_m = ray.is_dark ? 0.0 : closed_at_m(now, ray);
+  // either bound: steps are half a cell.
   for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
     const Eigen::Vector2d p_odom_m = ray.at(range_m);
     const Ground ground = at(now, p_odom_m).ground;
     if (ground == Ground::kClosed) continue;
-    const bool was_seen = ground == Ground::kFree || ground == Ground::kOverlooked;
-    const bool is_explained = was_seen && range_m < explained_to_m;
+    // either bound: what is closed at its end was left as it is above.
+    const bool is_explained = ground != Ground::kUnknown && range_m < explained_to_m;
     set(now, p_odom_m, is_explained ? Ground::kOverlooked : Ground::kUnknown, Reason::kUnknown);
   }
 }
 
 double ObstacleMemory::closed_at_m(const Instant& now, const Ray& ray) const {
+  // either bound: steps are half a cell.
   for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
     if (at(now, ray.at(range_m)).ground == Ground::kClosed) return range_m;
   }
@@ -175,9 +182,13 @@ void ObstacleMemory::close_end(const Instant& now, const Ray& ray) {
 
 void ObstacleMemory::overlook_round(const Instant& now, const Pose2& T_odom_robot,
                                     double radius_m) {
+  // either bound: steps are half a cell.
   for (double x_m = -radius_m; x_m <= radius_m; x_m += kStep_m) {
+    // either bound: as above.
     for (double y_m = -radius_m; y_m <= radius_m; y_m += kStep_m) {
+      // equivalent: a circle is its own mirror image.
       const Eigen::Vector2d p_odom_m = T_odom_robot.position_m() + Eigen::Vector2d(x_m, y_m);
+      // either bound: as above.
       if (std::hypot(x_m, y_m) <= radius_m && at(now, p_odom_m).ground == Ground::kUnknown) {
         set(now, p_odom_m, Ground::kOverlooked, Reason::kAsAsked);
       }
@@ -187,8 +198,10 @@ void ObstacleMemory::overlook_round(const Instant& now, const Pose2& T_odom_robo
 
 void ObstacleMemory::touch(const Instant& now, const Pose2& T_odom_robot, double radius_m,
                            Reason why) {
+  // either bound: steps are half a cell where the bumper is.
   for (double bearing_rad = -kTouched_rad; bearing_rad <= kTouched_rad;
        bearing_rad += kTouchedStep_rad) {
+    // equivalent: a robot's front is its own mirror image.
     const double heading_rad = T_odom_robot.heading_rad + bearing_rad;
     const Eigen::Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
     for (double deep_m = kCell_m; deep_m <= kTouched_m; deep_m += kStep_m) {

@@ -18,6 +18,7 @@ constexpr double kFarthest_m = 1e5;  // of a pose from its start
 constexpr Duration kIntervalMax = std::chrono::seconds(5);
 constexpr Duration kAheadMax = milliseconds(200);
 constexpr double kMarkStep_m = 0.02;
+constexpr int kReverseSteps = static_cast<int>(kReverse_m / kMarkStep_m + 0.5);
 
 bool is_sound(const OdometrySample& sample) {
   const Pose2& pose = sample.T_odom_robot;
@@ -66,6 +67,7 @@ void OdometryTrack::start_anew() {
 void OdometryTrack::leave_mark(const Instant& now, const Pose2& pose) {
   if (mark_count_ > 0) {
     const Pose2& last = marks_[(mark_count_ - 1) % kMarks].T_odom_robot;
+    // either bound: a track is not known to a bit.
     if ((pose.position_m() - last.position_m()).norm() < kMarkStep_m) return;
   }
   marks_[mark_count_ % kMarks] = {pose, now.steady};
@@ -98,8 +100,8 @@ bool OdometryTrack::stands() const {
 double OdometryTrack::reverse_way_m(const Instant& now, double curvature_radpm) const {
   const Pose2 here = pose_now(now);
   double way_m = 0.0;
-  while (way_m < kReverse_m) {
-    const double next_m = way_m + kMarkStep_m;
+  for (int step = 1; step <= kReverseSteps; ++step) {
+    const double next_m = step * kMarkStep_m;
     if (!is_near_track(now, compose(here, along_arc(-next_m, curvature_radpm)))) break;
     way_m = next_m;
   }
@@ -111,6 +113,7 @@ bool OdometryTrack::is_near_track(const Instant& now, const Pose2& pose) const {
     const Mark& mark = marks_[(mark_count_ - 1 - back) % kMarks];
     if (now.steady - mark.passed > kTrackLife) return false;
     const double away_m = (mark.T_odom_robot.position_m() - pose.position_m()).norm();
+    // either bound: a track is not known to a bit.
     if (away_m <= kTrackTolerance_m) return true;
   }
   return false;

@@ -10,8 +10,14 @@ namespace {
 
 constexpr double kSweepStep_m = 0.025;
 constexpr double kCell_m = ObstacleMemory::kCell_m;
+constexpr double kHalfCell_m = 0.5 * kCell_m;
 
-double centre_of_cell(double p_m) { return (std::floor(p_m / kCell_m) + 0.5) * kCell_m; }
+/// Of the first cell from `p_m` on.
+double first_centre_m(double p_m) {
+  const double corner_m = std::floor(p_m / kCell_m) * kCell_m;
+  // equivalent: a cell earlier begins out of reach, where no place counts.
+  return corner_m + kHalfCell_m;
+}
 
 /// The corridor's places, position by position of the robot.
 class Sweep {
@@ -28,9 +34,11 @@ class Sweep {
   bool enter(const Pose2& pose_odom, CorridorView& view) {
     is_overlooked_ = false;
     const Eigen::Vector2d centre = pose_odom.position_m();
-    for (double x = centre_of_cell(centre.x() - reach_m_); x <= centre.x() + reach_m_;
+    // either bound: what lies as far off as the robot reaches is not met.
+    for (double x = first_centre_m(centre.x() - reach_m_); x <= centre.x() + reach_m_;
          x += kCell_m) {
-      for (double y = centre_of_cell(centre.y() - reach_m_); y <= centre.y() + reach_m_;
+      // either bound: as above.
+      for (double y = first_centre_m(centre.y() - reach_m_); y <= centre.y() + reach_m_;
            y += kCell_m) {
         if (is_ahead({x, y}, centre) && !look({x, y}, view)) return false;
       }
@@ -44,6 +52,7 @@ class Sweep {
   bool is_ahead(const Eigen::Vector2d& place, const Eigen::Vector2d& centre) const {
     const double then_m = (place - centre).norm();
     const double now_m = (place - T_odom_robot_.position_m()).norm();
+    // either bound: a place is known to half a cell.
     return then_m < reach_m_ && now_m > own_m_ && then_m < now_m;
   }
 

@@ -38,6 +38,16 @@ TEST(RequestArbiter, TheHighestPriorityThatLivesIsHeardAndOfEqualsTheFirst) {
   EXPECT_EQ(arbiter.winner(later(milliseconds(200))), nullptr);
 }
 
+TEST(RequestArbiter, WhoFellSilentIsHeardAfterWhoAsksAgainFirst) {
+  RequestArbiter arbiter;
+  EXPECT_EQ(arbiter.hear(kStart, ask("pilot", 10)), RequestResult::kHeard);
+  EXPECT_EQ(arbiter.hear(kStart, ask("other", 10)), RequestResult::kHeard);
+  const Instant silent = later(milliseconds(200));
+  EXPECT_EQ(arbiter.hear(silent, ask("other", 10)), RequestResult::kHeard);
+  EXPECT_EQ(arbiter.hear(silent, ask("pilot", 10)), RequestResult::kHeard);
+  EXPECT_EQ(arbiter.winner(silent)->source, "other");
+}
+
 TEST(RequestArbiter, ANewerRequestReplacesItsSourcesOlder) {
   RequestArbiter arbiter;
   EXPECT_EQ(arbiter.hear(kStart, ask("pilot", 10, 0.1)), RequestResult::kHeard);
@@ -140,6 +150,8 @@ TEST(InputWatch, UsesNoStampThatCannotBeTrue) {
   EXPECT_EQ(watch.hear(kStart, kStart.wall - kStampAge), StampResult::kFresh);
   EXPECT_EQ(watch.hear(kStart, kStart.wall - kStampAge), StampResult::kOutOfOrder);
   EXPECT_EQ(watch.hear(kStart, kStart.wall + kFutureSlack), StampResult::kFresh);
+  EXPECT_EQ(watch.hear(kStart, kStart.wall + kFutureSlack), StampResult::kOutOfOrder)
+      << "as far ahead as a stamp may be, the clock was not set back";
 }
 
 TEST(ClockWatch, NoticesAStepAndForgivesASlew) {

@@ -23,6 +23,27 @@ TEST(Driving, OnOpenFloorWhatIsAskedIsGranted) {
   EXPECT_EQ(decision.first, Reason::kAsAsked);
 }
 
+TEST(Driving, WhatIsAskedSlowerThanAMillimetreASecondIsATurnOnTheSpot) {
+  DrivenWorld drive;
+  drive.ask(0.00099, 0.5);
+  Decision decision = drive.run(seconds(1));
+  EXPECT_EQ(decision.granted.speed_mps, 0.0);
+  EXPECT_DOUBLE_EQ(decision.granted.turn_rate_radps, 0.5);
+  drive.ask(0.001, 0.0);
+  decision = drive.step();
+  EXPECT_DOUBLE_EQ(decision.granted.speed_mps, 0.001);
+}
+
+TEST(Driving, WhatTheAccelerationJustAllowsIsAsAsked) {
+  DrivenWorld drive;
+  drive.ask(0.0, 0.0);
+  drive.run(seconds(1));
+  drive.ask(0.0, kTurnAcceleration_radps2 * 0.02);
+  EXPECT_TRUE(drive.step().reasons.is_empty());
+  drive.ask(0.0, kTurnAcceleration_radps2 * 0.041);
+  EXPECT_TRUE(drive.step().reasons.has(Reason::kAcceleration));
+}
+
 TEST(Driving, BeginsWithACreepOverFloorItHasNotSeen) {
   DrivenWorld drive;
   drive.ask(0.5, 0.0);
@@ -86,6 +107,47 @@ TEST(Driving, AnArcIsSweptAsAnArc) {
   EXPECT_GT(straight.T_odom_robot.x_m, 2.0);
 }
 
+/// What ends the corridor if this is asked for, and was granted so far.
+Reason end_of_corridor(DrivenWorld& drive, double speed_mps, double turn_rate_radps) {
+  drive.ask(speed_mps, turn_rate_radps);
+  drive.hear_request();
+  const Granted before{drive.request, drive.now().steady};
+  return decide(drive.now(), drive.world, before, drive.params).corridor.end;
+}
+
+TEST(Driving, AnArcMeetsWhatStandsBesideTheStraightWay) {
+  DrivenWorld drive;
+  drive.discs = {{{1.6, 0.35}, 0.05}};
+  drive.ask(0.5, 0.0);
+  while (drive.T_odom_robot.x_m < 1.2) drive.step();  // the post is 0.4 m ahead, 0.35 m to the left
+  EXPECT_EQ(end_of_corridor(drive, 0.5, 0.0), Reason::kAsAsked);
+  EXPECT_NE(end_of_corridor(drive, 0.5, 1.0), Reason::kAsAsked) << "the post, and what it hides";
+  EXPECT_EQ(end_of_corridor(drive, 0.5, -1.0), Reason::kAsAsked);
+}
+
+TEST(Driving, ATightArcPassesWhatStandsAhead) {
+  DrivenWorld drive;
+  drive.discs = {{{2.0, -0.03}, 0.05}};
+  drive.ask(0.3, 0.0);
+  while (drive.T_odom_robot.x_m < 1.63) drive.step();  // its rim 0.15 m before the post
+  EXPECT_NE(end_of_corridor(drive, 0.05, 0.0), Reason::kAsAsked);
+  EXPECT_EQ(end_of_corridor(drive, 0.05, 2.0), Reason::kAsAsked) << "within 5 cm";
+}
+
+TEST(Driving, BeforeWhatItKnowsItDoesNotSpeakOfTheUnknown) {
+  DrivenWorld drive;
+  drive.ask(0.3, 0.0);
+  ASSERT_GT(drive.run(seconds(12)).granted.speed_mps, 0.29);
+  drive.body.bump = true;
+  drive.step();  // something stands on floor seen free
+  drive.body.bump = false;
+  drive.step();
+  const Granted fast{{0.3, 0.0}, drive.now().steady};
+  const Decision decision = decide(drive.now(), drive.world, fast, drive.params);
+  EXPECT_TRUE(decision.reasons.has(Reason::kRemembered));
+  EXPECT_FALSE(decision.reasons.has(Reason::kUnknown));
+}
+
 TEST(Driving, WhatCannotBeMeasuredIsNotFree) {
   DrivenWorld drive;
   drive.discs = {{{1.8, 0.0}, 0.1}};
@@ -102,6 +164,31 @@ TEST(Driving, TurnsOnTheSpotWhereItCannotGoAhead) {
   drive.discs = {{{0.35, 0.0}, 0.1}};
   drive.ask(0.0, 1.0);
   EXPECT_DOUBLE_EQ(drive.run(seconds(2)).granted.turn_rate_radps, 1.0);
+}
+
+TEST(Driving, TurningOnTheSpotLooksAtNoCorridor) {
+  DrivenWorld drive;
+  drive.ask(0.3, 0.0);
+  ASSERT_GT(drive.run(seconds(4)).corridor.free_m, 0.1);
+  drive.ask(0.0, 0.5);
+  const CorridorView corridor = drive.run(seconds(1)).corridor;
+  EXPECT_EQ(corridor.free_m, 0.0);
+  EXPECT_EQ(corridor.end, Reason::kAsAsked);
+}
+
+TEST(Driving, TheWayBackIsThatOfTheArcAskedForOrStraight) {
+  DrivenWorld drive;
+  drive.ask(0.3, 0.0);
+  drive.run(seconds(8));
+  const auto way_back_m = [&](double speed_mps, double turn_rate_radps) {
+    drive.ask(speed_mps, turn_rate_radps);
+    drive.hear_request();
+    return decide(drive.now(), drive.world, drive.granted, drive.params).reverse_way_m;
+  };
+  EXPECT_NEAR(way_back_m(-0.1, 0.0), kReverse_m, 0.021);
+  EXPECT_LT(way_back_m(-0.1, 0.8), 0.2) << "leaves the track";
+  EXPECT_NEAR(way_back_m(0.0, 0.8), kReverse_m, 0.021);
+  EXPECT_NEAR(way_back_m(0.1, 0.8), kReverse_m, 0.021);
 }
 
 TEST(Driving, GoesBackAsFarAsItCameAndNoFarther) {

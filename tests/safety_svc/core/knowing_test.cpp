@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "services/safety_svc/core/arc.h"
 #include "tests/safety_svc/support/driven_world.h"
@@ -37,6 +38,16 @@ TEST(CameraMount, SaysWhereTheFloorComesIntoView) {
   EXPECT_NEAR(mount_of(ahead)->floor_seen_from_m, 0.1 + 0.4 / (239.0 / 430.0), 1e-9);
 }
 
+TEST(CameraMount, OfACameraThatLooksDownTheFloorComesIntoViewNearer) {
+  CameraSetup down = DrivenWorld::camera();
+  const Eigen::Quaterniond level(down.quat_wxyz[0], down.quat_wxyz[1], down.quat_wxyz[2],
+                                 down.quat_wxyz[3]);
+  const Eigen::Quaterniond q = level * Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitX());
+  down.quat_wxyz = {q.w(), q.x(), q.y(), q.z()};
+  const double lowest_rad = 0.3 + std::atan(239.0 / 430.0);
+  EXPECT_NEAR(mount_of(down)->floor_seen_from_m, 0.4 / std::tan(lowest_rad), 1e-9);
+}
+
 TEST(CameraMount, RefusesWhatSeesNoFloorAhead) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refuses = [](auto change) {
@@ -47,7 +58,10 @@ TEST(CameraMount, RefusesWhatSeesNoFloorAhead) {
   EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz *= 1.1; }));
   EXPECT_TRUE(refuses([](auto& s) { s.quat_wxyz.setZero(); }));
   EXPECT_TRUE(refuses([](auto& s) { s.p_robot_camera_m.z() = 0.0; }));
+  EXPECT_TRUE(refuses([](auto& s) { s.p_robot_camera_m.z() = -0.1; }));
   EXPECT_TRUE(refuses([](auto& s) { s.p_robot_camera_m.x() = 6.0; }));
+  EXPECT_TRUE(refuses([](auto& s) { s.p_robot_camera_m.x() = std::sqrt(25.0 - 0.16); })) << "5 m";
+  EXPECT_FALSE(refuses([](auto& s) { s.p_robot_camera_m.x() = std::sqrt(24.9 - 0.16); }));
   EXPECT_TRUE(refuses([&](auto& s) { s.p_robot_camera_m.x() = nan; }));
   EXPECT_TRUE(refuses([&](auto& s) { s.fy_px = nan; }));
   EXPECT_TRUE(refuses([](auto& s) { s.fy_px = 4300.0; })) << "farther than 5 m";
@@ -139,9 +153,9 @@ TEST(OdometryTrack, RefusesWhatNoCreateDoes) {
   EXPECT_EQ(result([](auto& s) { s.interval = Duration(1); }), used);
   EXPECT_EQ(result([](auto& s) { s.interval = seconds(5); }), used);
   EXPECT_EQ(result([](auto& s) { s.interval = seconds(5) + Duration(1); }), refused);
-  EXPECT_EQ(result([](auto& s) { s.distance_m = 0.199; }), used);
+  EXPECT_EQ(result([](auto& s) { s.distance_m = 0.2; }), used);
   EXPECT_EQ(result([](auto& s) { s.distance_m = -0.201; }), refused);
-  EXPECT_EQ(result([](auto& s) { s.turn_rad = 1.99; }), used);
+  EXPECT_EQ(result([](auto& s) { s.turn_rad = 2.0; }), used);
   EXPECT_EQ(result([](auto& s) { s.turn_rad = 2.01; }), refused);
   EXPECT_EQ(result([](auto& s) { s.T_odom_robot.x_m = 1e5; }), refused);
   EXPECT_EQ(result([](auto& s) { s.T_odom_robot.y_m = -1e5; }), refused);
@@ -150,11 +164,14 @@ TEST(OdometryTrack, RefusesWhatNoCreateDoes) {
   EXPECT_EQ(result([&](auto& s) { s.distance_m = nan; }), refused);
 }
 
-TEST(OdometryTrack, StandsBelowItsLimits) {
+TEST(OdometryTrack, StandsUpToItsLimits) {
   for (const auto& [distance_m, turn_rad, stands] :
-       {std::tuple(0.0059, 0.029, true), {-0.0061, 0.0, false}, {0.0, -0.031, false}}) {
+       {std::tuple(kStanding_mps, kStanding_radps, true),
+        {-0.0601, 0.0, false},
+        {0.0, -0.301, false}}) {
     OdometryTrack track;
     OdometrySample sample = sample_at(milliseconds(0), 0.0, distance_m);
+    sample.interval = seconds(1);
     sample.turn_rad = turn_rad;
     ASSERT_EQ(track.add(kStart, sample), OdometryResult::kStartedAnew);
     EXPECT_EQ(track.stands(), stands);
@@ -177,6 +194,38 @@ TEST(OdometryTrack, TheWayBackIsAsLongAsTheWayCameAndFades) {
   EXPECT_NEAR(track.reverse_way_m(now, 0.0), 0.27, 0.02);
   EXPECT_LT(track.reverse_way_m(now, 8.0), 0.15) << "another way";
   EXPECT_EQ(track.reverse_way_m(later(seconds(22)), 0.0), 0.0);
+}
+
+TEST(OdometryTrack, WhereItStoodAtFirstItMayComeBackTo) {
+  OdometryTrack track;
+  for (int i = 0; i <= 5; ++i) {
+    (void)track.add(later(milliseconds(100 * i)),
+                    sample_at(milliseconds(100 * i), 0.02 * i, i == 0 ? 0.0 : 0.02));
+  }
+  EXPECT_DOUBLE_EQ(track.reverse_way_m(later(milliseconds(500)), 0.0), 0.12);
+}
+
+TEST(OdometryTrack, TheWayBackIsHalfAMetreAtMost) {
+  OdometryTrack track;
+  for (int i = 0; i <= 50; ++i) {
+    (void)track.add(later(milliseconds(100 * i)), sample_at(milliseconds(100 * i), 0.02 * i, 0.02));
+  }
+  EXPECT_DOUBLE_EQ(track.reverse_way_m(later(milliseconds(5000)), 0.0), kReverse_m);
+}
+
+TEST(OdometryTrack, TheWayBackIsKnownForItsLifeAndNoLonger) {
+  OdometryTrack track;
+  (void)track.add(kStart, sample_at(milliseconds(0), 0.0, 0.0));
+  EXPECT_DOUBLE_EQ(track.reverse_way_m(later(kTrackLife), 0.0), 0.02);
+  EXPECT_EQ(track.reverse_way_m(later(kTrackLife + Duration(1)), 0.0), 0.0);
+}
+
+TEST(OdometryTrack, JustAfterTheMachineStartedItKnowsOnlyWhereItWas) {
+  const Instant boot{milliseconds(100), kStart.wall};
+  OdometryTrack track;
+  EXPECT_EQ(track.reverse_way_m(boot, 0.0), 0.0);
+  (void)track.add(boot, sample_at(milliseconds(0), 0.05, 0.0));
+  EXPECT_DOUBLE_EQ(track.reverse_way_m(boot, 0.0), 0.02);
 }
 
 TEST(OdometryTrack, ANewFrameForgetsTheWayBack) {
@@ -300,6 +349,57 @@ TEST(ObstacleMemory, AtTheViewsEdgesNothingIsClosed) {
   EXPECT_EQ(memory.at(kStart, place(seen.free_m.size() - 4)).ground, Ground::kClosed);
 }
 
+TEST(ObstacleMemory, AtTheEdgesOfWhatWasEverInViewNothingIsDoubted) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view()));
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.0, 0.1).view()));
+  const auto ground_along = [&](int bin) {
+    const double bearing_rad = 0.035 * bin - 0.35;
+    return memory.at(kStart, {0.78 * std::cos(bearing_rad), 0.78 * std::sin(bearing_rad)}).ground;
+  };
+  for (const int bin : {1, 19}) EXPECT_EQ(ground_along(bin), Ground::kFree) << bin;
+  for (const int bin : {4, 16}) EXPECT_EQ(ground_along(bin), Ground::kUnknown) << bin;
+}
+
+TEST(ObstacleMemory, WhatWasNeverSeenNothingExplains) {
+  ObstacleMemory memory;
+  memory.touch(kStart, {0.3, 0.0, 0.0}, 0.17, Reason::kRemembered);
+  ASSERT_EQ(memory.at(kStart, {0.53, 0.0}).ground, Ground::kClosed);
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(0.0, 0.1).view()));
+  EXPECT_EQ(memory.at(kStart, {0.48, 0.0}).ground, Ground::kUnknown);
+}
+
+TEST(ObstacleMemory, WhatWasFeltIsTwoCellsThick) {
+  ObstacleMemory memory;
+  memory.touch(kStart, {}, 0.17, Reason::kRemembered);
+  EXPECT_EQ(memory.at(kStart, {0.19, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(kStart, {0.23, 0.0}).ground, Ground::kClosed);
+  EXPECT_EQ(memory.at(kStart, {0.27, 0.0}).ground, Ground::kClosed);
+  EXPECT_EQ(memory.at(kStart, {0.31, 0.0}).ground, Ground::kUnknown);
+}
+
+TEST(ObstacleMemory, WhereTheViewEndsWhereItBeginsNoFloorIsSeen) {
+  ObstacleMemory memory;
+  const UniformView seen(0.72, 0.1);
+  FreeView view = seen.view();
+  view.floor_seen_from_m = 0.72;
+  ASSERT_TRUE(memory.see(kStart, {}, view));
+  EXPECT_EQ(memory.at(kStart, {0.72, 0.0}).ground, Ground::kUnknown) << "not closed";
+}
+
+TEST(ObstacleMemory, BeyondItsReachNothingIsClosed) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(ObstacleMemory::kReach_m, 0.1).view()));
+  EXPECT_EQ(memory.at(kStart, {2.48, 0.0}).ground, Ground::kFree);
+  EXPECT_EQ(memory.at(kStart, {2.52, 0.0}).ground, Ground::kUnknown);
+}
+
+TEST(ObstacleMemory, ABearingOfWhichHalfIsReadIsNotDark) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kStart, {}, UniformView(1.52, kUnknownRatio).view()));
+  EXPECT_EQ(memory.at(kStart, {1.52, 0.0}).why, Reason::kObstacle);
+}
+
 TEST(ObstacleMemory, AnEdgeToFallOffIsSaidToBeOne) {
   ObstacleMemory memory;
   const UniformView seen(1.52, 0.1);
@@ -336,7 +436,13 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
   EXPECT_TRUE(sees([](auto&) {}));
   EXPECT_FALSE(sees([](auto& v) { v.free_range_m = {}; }));
   EXPECT_FALSE(sees([](auto& v) { v.unknown_ratio = v.unknown_ratio.first(20); }));
-  EXPECT_FALSE(sees([](auto& v) { v.first_bearing_rad = -1.6; }));
+  EXPECT_FALSE(sees([](auto& v) { v.first_bearing_rad = -1.5; })) << "1.5 is too far";
+  EXPECT_TRUE(sees([](auto& v) { v.first_bearing_rad = -1.49; }));
+  EXPECT_TRUE(sees([](auto& v) { v.bearing_step_rad = 1.83 / 20; })) << "its last is at 1.48";
+  EXPECT_FALSE(sees([](auto& v) {
+    v.first_bearing_rad = 0.5;
+    v.bearing_step_rad = 0.05;
+  })) << "its last is at 1.5";
   EXPECT_FALSE(sees([](auto& v) { v.bearing_step_rad = 0.1; }));
   EXPECT_FALSE(sees([&](auto& v) { v.bearing_step_rad = nan; }));
   UniformView bad = good;
@@ -346,10 +452,14 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
   bad.unknown_ratio[3] = nan;
   EXPECT_FALSE(memory.see(kStart, {}, bad.view()));
   const std::vector<double> many(1001, 0.5);
-  EXPECT_FALSE(sees([&](auto& v) {
-    v.free_range_m = v.unknown_ratio = many;
-    v.bearing_step_rad = 1e-4;
-  }));
+  const auto sees_many = [&](std::size_t bins) {
+    return sees([&](auto& v) {
+      v.free_range_m = v.unknown_ratio = std::span(many).first(bins);
+      v.bearing_step_rad = 1e-4;
+    });
+  };
+  EXPECT_TRUE(sees_many(1000));
+  EXPECT_FALSE(sees_many(1001));
 }
 
 TEST(ObstacleMemory, OverlooksWhatIsUnknownInACircleAndNothingElse) {
@@ -368,6 +478,19 @@ TEST(SweptCorridor, SaysHowMuchOfItIsUnknown) {
   EXPECT_EQ(sweep(kStart, memory, {}, 0.0, 0.5, {}).unknown_ratio, 1.0);
   ASSERT_TRUE(memory.see(kStart, {-1.0, 0.0, 0.0}, UniformView(2.0, 0.1).view()));
   EXPECT_LT(sweep(kStart, memory, {}, 0.0, 0.5, {}).unknown_ratio, 0.01);
+}
+
+TEST(SweptCorridor, MeetsWhatStandsThereWhereverThatIs) {
+  for (const double x_m : {-5.0, 0.0, 5.0}) {
+    for (const double y_m : {-5.0, 0.0, 5.0}) {
+      const Pose2 here{x_m, y_m, 0.3};
+      ObstacleMemory memory;
+      memory.overlook_round(kStart, here, 0.45);
+      EXPECT_GT(sweep(kStart, memory, here, 0.0, 0.1, {}).free_m, 0.09);
+      memory.touch(kStart, here, 0.17, Reason::kRemembered);
+      EXPECT_EQ(sweep(kStart, memory, here, 0.0, 0.1, {}).end, Reason::kRemembered);
+    }
+  }
 }
 
 TEST(SweptCorridor, OfNoLengthNothingIsUnknown) {

@@ -85,7 +85,10 @@ void DrivenWorld::hear() {
     if (has_frames) (void)world.hear_frame(now_, now_.wall + stamp_ahead, camera());
     (void)world.hear_view(now_, view());
   }
-  if (!asks) return;
+  if (asks) hear_request();
+}
+
+void DrivenWorld::hear_request() {
   (void)world.requests.hear(now_, {.request = request,
                                    .source = "test",
                                    .priority = 10,

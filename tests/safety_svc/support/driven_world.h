@@ -25,6 +25,8 @@ class DrivenWorld {
   /// Steps until `time` has gone by; the last decision.
   Decision run(Duration time);
   void ask(double speed_mps, double turn_rate_radps) { request = {speed_mps, turn_rate_radps}; }
+  /// Hears what is asked, and nothing else; no time goes by.
+  void hear_request();
 
   /// From the robot's edge to the nearest obstacle's.
   double clearance_m() const;
