@@ -25,7 +25,7 @@ WORK = ROOT / "build/safety_proof"
 SUPPORT = ROOT / "tests/safety_svc/support/driven_world.cpp"
 LAWS = ROOT / "tests/safety_svc/core/safety_law_test.cpp"
 EXAMPLES = [ROOT / f"tests/safety_svc/core/{stem}_test.cpp"
-            for stem in ("knowing", "world", "asking", "driving")]
+            for stem in ("knowing", "ground", "world", "asking", "driving", "stopping")]
 FLAGS = ["-std=c++20", "-fPIC", "-ffp-contract=off", "-I", str(ROOT),
          "-isystem", "/usr/include/eigen3"]
 GTEST = ["-lgtest", "-lgtest_main", "-lpthread"]
