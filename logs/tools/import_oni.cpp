@@ -3,8 +3,11 @@
 #include <fmt/core.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "common/bus/log_file.h"
 #include "logs/tools/camera_pose.h"
@@ -13,11 +16,35 @@
 #include "logs/tools/progress.h"
 #include "logs/tools/rgbd_log.h"
 #include "logs/tools/whole_file.h"
+#include "services/kinect_pub/core/depth_words.h"
 
 namespace roomwise {
 namespace {
 
-constexpr std::int64_t kFirstDay_utime = 1356998400000000;  // 2013-01-01 00:00 UTC
+constexpr double kDepthMax_m = 10.0;  // beyond it a Kinect says nothing
+
+/// Times that increase, by a device's clock that may start anew.
+class RecordingClock {
+ public:
+  std::int64_t utime(std::int64_t device_time_us) {
+    const std::int64_t step_us = device_time_us - last_us_.value_or(device_time_us - kPeriod_us);
+    const bool goes_on = step_us > 0 && step_us <= kLeap_us;
+    utime_ += goes_on ? step_us : kPeriod_us;
+    last_us_ = device_time_us;
+    return utime_;
+  }
+
+ private:
+  static constexpr std::int64_t kPeriod_us = 33'333;
+  static constexpr std::int64_t kLeap_us = 3'600'000'000;
+  std::int64_t utime_ = 1'356'998'400'000'000 - kPeriod_us;  // a frame before 2013-01-01 00:00 UTC
+  std::optional<std::int64_t> last_us_;
+};
+
+void drop_far_readings(DepthImage& depth) {
+  const int farthest = static_cast<int>(kDepthMax_m / depth.unit_m + 0.5);
+  kinect::drop_depths_above(std::min(farthest, 65534), depth.steps);
+}
 
 }  // namespace
 
@@ -32,11 +59,14 @@ void import_oni(const OniImport& import, std::ostream& notes) {
   frame.depth_registered = import.registered && recording.has_color();
   // Registered depth is the depth that the colour camera would see.
   frame.camera = frame.depth_registered ? recording.color_camera() : recording.depth_camera();
+  if (recording.has_color()) frame.color_camera = recording.color_camera();
+  RecordingClock clock;
   OniFrame read;
   while (recording.next(read)) {
     ++frame.seq;
     frame.device_time_us = read.depth_time_us;
-    frame.utime = kFirstDay_utime + read.depth_time_us;
+    frame.utime = clock.utime(read.depth_time_us);
+    drop_far_readings(read.depth);
     std::swap(frame.depth, read.depth);
     frame.color = encode_jpeg(read.color);
     rgbd.write_frame(frame, import.recording);

@@ -2,6 +2,7 @@
 
 #include <OpenNI.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -23,7 +24,9 @@ using Pairing = kinect::FramePairing<Image, Image>;
 
 constexpr std::int64_t kPairTolerance_us = 17'000;  // half a frame
 constexpr int kPatience_ms = 5'000;                 // for an image that is read from a file
-constexpr float kOnDemand = -1.0F;                  // OpenNI2's playback speed: as images are read
+/// Device clocks beyond this are nonsense (3000 years), and sums of them could overflow.
+constexpr std::uint64_t kLatest_us = 100'000'000'000'000'000;
+constexpr float kOnDemand = -1.0F;  // OpenNI2's playback speed: as images are read
 
 PinholeCamera camera_of(const openni::VideoStream& stream) {
   const openni::VideoMode mode = stream.getVideoMode();
@@ -119,7 +122,8 @@ bool OniRecording::next(OniFrame& frame) {
       refuse("ends before its last image");
     }
     --streams_->left[static_cast<std::size_t>(ready)];
-    const auto time_us = static_cast<std::int64_t>(image.getTimestamp());
+    const auto time_us =
+        static_cast<std::int64_t>(std::min<std::uint64_t>(image.getTimestamp(), kLatest_us));
     if (ready == 1) {
       pair = streams_->pairing.add_color(time_us, image);
     } else if (has_color()) {

@@ -47,7 +47,9 @@ void RgbdLog::write_frame(const ImportedFrame& frame, const std::filesystem::pat
   encoder_.encode_depth(frame.depth, kinect_frame_t::DEPTH_PDZ16, message);
   set_color(frame.color, message);
   encode_depth_camera(frame.camera, message);
-  if (!frame.color.bytes.empty()) encode_color_camera(frame.camera, message);
+  if (!frame.color.bytes.empty()) {
+    encode_color_camera(frame.color_camera.value_or(frame.camera), message);
+  }
   encode_pose(frame.T_robot_camera, message);
   const FrameResult result = check_.decode(message, decoded_);
   if (result != FrameResult::kOk) {

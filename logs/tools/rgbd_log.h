@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "common/bus/log_file.h"
 #include "common/frames/frame_decoder.h"
@@ -10,8 +11,7 @@
 
 namespace roomwise {
 
-/// One instant of a recorded depth camera, as import finds it: one pinhole camera for depth and
-/// colour.
+/// One instant of a recorded depth camera, as import finds it.
 struct ImportedFrame {
   std::int64_t utime = 0;
   std::int64_t seq = 0;
@@ -20,6 +20,7 @@ struct ImportedFrame {
   bool depth_registered = false;  ///< depth pixels lie on the colour image's pixels
   JpegImage color;                ///< without bytes: none
   PinholeCamera camera;
+  std::optional<PinholeCamera> color_camera;  ///< nothing: colour has the depth's
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
 };
 

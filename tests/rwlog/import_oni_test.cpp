@@ -67,6 +67,7 @@ TEST_F(ImportOni, EveryPairOfTheRecordingIsThereOnceAndInOrder) {
     ASSERT_EQ(decoder.decode(message, frame), FrameResult::kOk);
     EXPECT_EQ(message.seq, static_cast<std::int64_t>(i) + 1);
     EXPECT_NEAR(frame.depth_camera.fx_px, 575.8, 1e-3);
+    EXPECT_NEAR(frame.color_camera.fx_px, 525.0, 1e-3);
     EXPECT_EQ(frame.color.width_px, 640);
     EXPECT_TRUE(i == 0 || message.utime > frames[i - 1].utime);
   }
@@ -95,6 +96,29 @@ TEST_F(ImportOni, SameRecordingGivesTheSameBytes) {
   };
   EXPECT_GT(bytes(log_).size(), 10'000U);
   EXPECT_TRUE(bytes(log_) == bytes(log_ + "2"));
+}
+
+TEST_F(ImportOni, RegisteredDepthHasTheColourCamera) {
+  record(10);
+  ASSERT_EQ(
+      run_to_end({program("rwlog"), "import", "oni", oni_, "-o", log_, "--registered"}, said_), 0)
+      << said_;
+  const kinect_frame_t frame = frames_in(log_).at(0);
+  EXPECT_EQ(frame.depth_registered, 1);
+  EXPECT_NEAR(frame.depth_fx_px, 525.0, 1e-3);
+}
+
+TEST_F(ImportOni, ServiceReplaysTheLog) {
+  record(20);
+  ASSERT_EQ(import(log_), 0) << said_;
+  const std::string replayed = run_.folder() / "replayed.lcmlog";
+  ASSERT_EQ(run_to_end({program("landmark_svc"), "--replay", log_, "--record", replayed}, said_), 0)
+      << said_;
+  LogReader reader(replayed);
+  LogEvent event;
+  std::size_t answers = 0;
+  while (reader.next(event)) answers += event.channel == channels::kLandmarks.name ? 1 : 0;
+  EXPECT_EQ(answers, frames_in(log_).size());
 }
 
 TEST_F(ImportOni, WhatIsNoRecordingIsRefusedByNameAndNothingIsWritten) {
