@@ -16,7 +16,8 @@ URL = "udpm://239.255.76.67:27690?ttl=0&recv_buf_size=2097152"
 PAGE = "http://127.0.0.1:8090/"
 NODE_MODULES = PROGRAMS.parent / "services/viewer/page/node_modules"
 WALK = pathlib.Path(__file__).with_name("walk.mjs")
-WALKS = ["drive", "look", "stick", "train", "goal", "replay"]
+# Teaching first: where the robot starts it has a wall before it.
+WALKS = ["train", "drive", "look", "stick", "goal", "replay"]
 KEEP = os.environ.get("ROOMWISE_SCREENSHOTS")
 
 
