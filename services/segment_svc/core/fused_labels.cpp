@@ -33,6 +33,15 @@ bool is_doubtful(const ClassScores& log_scores) {
          log_scores[kAccessibleIndex];
 }
 
+ROOMWISE_MULTIVERSION
+bool is_all_floor(const std::uint8_t* labels, std::size_t width) {
+  std::uint8_t other = 0;
+  for (std::size_t u = 0; u < width; ++u) {
+    other = static_cast<std::uint8_t>(other | (labels[u] ^ kAccessible));
+  }
+  return other == 0;
+}
+
 /// Wall where it is likelier than obstacle, among what stands up. `lead`: by how much colour has
 /// wall ahead, for each bin.
 ROOMWISE_MULTIVERSION
@@ -76,6 +85,7 @@ void FusedLabels::correct(const RgbdFrame& frame, const CameraView& view, const 
   bins_.assign(width, 0);
   for (std::size_t v = 0; v < rows_.size(); ++v) {
     std::uint8_t* row = labels.data() + v * width;
+    if (!rows_[v].judges_floor && is_all_floor(row, width)) continue;
     if (color_is_used_) evidence_.bins_of_row(colors_, v, bins_);
     correct_row(width, rows_[v], bins_.data(), row);
   }

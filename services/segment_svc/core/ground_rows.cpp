@@ -1,11 +1,15 @@
 #include "services/segment_svc/core/ground_rows.h"
 
+#include <algorithm>
+
 #include "common/multiversion.h"
 #include "services/segment_svc/core/labels.h"
 
 namespace roomwise::segment {
 namespace {
 
+constexpr int kColumns = 160;
+constexpr int kStrideMin_px = 2;
 constexpr float kFar_m = 50.0F;  // depth given to an unknown pixel that looks at no floor
 
 /// Parts of a row's rays that come from the row, the camera's place, and the depth's unit.
@@ -36,11 +40,12 @@ void project(const std::uint16_t* steps, const float* forward, const float* left
   }
 }
 
-void fill_columns(const CameraView& view, double per_ray_x, std::vector<float>& columns) {
+void fill_columns(const CameraView& view, std::size_t stride_px, double per_ray_x,
+                  std::vector<float>& columns) {
   const std::vector<float>& ray_x = view.ray_x();
-  columns.resize((ray_x.size() + GroundRows::kStride_px - 1) / GroundRows::kStride_px);
+  columns.resize((ray_x.size() + stride_px - 1) / stride_px);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    columns[i] = static_cast<float>(per_ray_x) * ray_x[GroundRows::kStride_px * i];
+    columns[i] = static_cast<float>(per_ray_x) * ray_x[stride_px * i];
   }
 }
 
@@ -52,20 +57,23 @@ void GroundRows::prepare(const RgbdFrame& frame, const CameraView& view, const F
   view_ = &view;
   labels_ = &labels;
   on_floor_ = on_floor;
-  fill_columns(view, on_floor.forward.x(), forward_);
-  fill_columns(view, on_floor.left.x(), left_);
-  fill_columns(view, on_floor.floor.normal.x(), up_);
+  stride_px_ = std::max(kStrideMin_px, view.width_px() / kColumns);
+  const auto stride_px = static_cast<std::size_t>(stride_px_);
+  fill_columns(view, stride_px, on_floor.forward.x(), forward_);
+  fill_columns(view, stride_px, on_floor.left.x(), left_);
+  fill_columns(view, stride_px, on_floor.floor.normal.x(), up_);
   for (auto* values : {&row_.x_m, &row_.y_m, &row_.height_m}) values->resize(forward_.size());
   row_.label.resize(forward_.size());
   steps_.resize(forward_.size());
 }
 
 const GroundRow& GroundRows::row(int index) {
-  const auto v = static_cast<std::size_t>(kStride_px * index);
+  const auto stride_px = static_cast<std::size_t>(stride_px_);
+  const std::size_t v = stride_px * static_cast<std::size_t>(index);
   const std::size_t first = v * static_cast<std::size_t>(view_->width_px());
   for (std::size_t i = 0; i < steps_.size(); ++i) {
-    steps_[i] = frame_->depth.steps[first + kStride_px * i];
-    row_.label[i] = (*labels_)[first + kStride_px * i];
+    steps_[i] = frame_->depth.steps[first + stride_px * i];
+    row_.label[i] = (*labels_)[first + stride_px * i];
   }
   const float ray_y = view_->ray_y()[v];
   const auto along = [&](const Eigen::Vector3d& axis) {

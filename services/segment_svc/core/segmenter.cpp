@@ -51,7 +51,7 @@ void Segmenter::look_around(const RgbdFrame& frame, Segmentation& result) {
   }
   // Image rows see the floor z^2 / (f h) apart.
   const double focal_times_height = view_.camera().fy_px * result.floor.plane.height_m;
-  free_range_.end(GroundRows::kStride_px / std::max(focal_times_height, 1.0), result.bearings);
+  free_range_.end(ground_.stride_px() / std::max(focal_times_height, 1.0), result.bearings);
   result.corridor = corridor_.end();
 }
 

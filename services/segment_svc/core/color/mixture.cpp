@@ -83,13 +83,11 @@ std::vector<MixturePart> first_guess(std::span<const ColorFeature> samples,
 std::pair<Mixture, double> improve(const Mixture& mixture, std::span<const ColorFeature> samples,
                                    double variance_min) {
   std::vector<PartSums> sums(mixture.parts().size());
+  std::vector<double> shares(sums.size());
   double log_likelihood = 0.0;
   for (const ColorFeature& x : samples) {
-    const double log_total = mixture.log_likelihood(x);
-    for (std::size_t k = 0; k < sums.size(); ++k) {
-      sums[k].add(x, std::exp(mixture.log_share(k, x) - log_total));
-    }
-    log_likelihood += log_total;
+    log_likelihood += mixture.log_likelihood(x, shares);
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(x, shares[k]);
   }
   return {Mixture(parts_of(sums, samples.size(), variance_min)),
           log_likelihood / static_cast<double>(samples.size())};
@@ -129,6 +127,18 @@ double Mixture::log_likelihood(const ColorFeature& x) const {
   for (std::size_t k = 0; k < parts_.size(); ++k) largest = std::max(largest, log_share(k, x));
   double sum = 0.0;
   for (std::size_t k = 0; k < parts_.size(); ++k) sum += std::exp(log_share(k, x) - largest);
+  return largest + std::log(sum);
+}
+
+double Mixture::log_likelihood(const ColorFeature& x, std::span<double> shares) const {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    shares[k] = log_share(k, x);
+    largest = std::max(largest, shares[k]);
+  }
+  double sum = 0.0;
+  for (double& share : shares) sum += share = std::exp(share - largest);
+  for (double& share : shares) share /= sum;
   return largest + std::log(sum);
 }
 

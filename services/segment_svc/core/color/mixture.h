@@ -27,6 +27,8 @@ class Mixture {
 
   /// ln sum_k w_k N(x; mean_k, covariance_k), summed without underflow (log-sum-exp).
   double log_likelihood(const ColorFeature& x) const;
+  /// The same; fills in each part's share of it, which add up to 1. One entry of `shares` a part.
+  double log_likelihood(const ColorFeature& x, std::span<double> shares) const;
   /// ln(w_k N(x; mean_k, covariance_k)).
   double log_share(std::size_t k, const ColorFeature& x) const;
 
