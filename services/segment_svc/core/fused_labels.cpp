@@ -1,6 +1,7 @@
 #include "services/segment_svc/core/fused_labels.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "common/multiversion.h"
 #include "services/segment_svc/core/class_prior.h"
@@ -9,7 +10,7 @@
 namespace roomwise::segment {
 namespace {
 
-constexpr std::size_t kSampleStep_px = 8;  ///< of a 640-wide image
+constexpr std::size_t kSampleStep_px = 12;  ///< of a 640-wide image
 /// Ahead of each of the two other classes by ln 18: a probability of at least 0.9.
 constexpr float kSureLead = 2.9F;
 
@@ -40,6 +41,14 @@ bool is_all_floor(const std::uint8_t* labels, std::size_t width) {
     other = static_cast<std::uint8_t>(other | (labels[u] ^ kAccessible));
   }
   return other == 0;
+}
+
+/// The first pixel from `from` on that has the label; `width` if there is none.
+std::size_t next(const std::uint8_t* labels, std::size_t from, std::size_t width, Label label) {
+  const void* found = std::memchr(labels + from, label, width - from);
+  return found == nullptr
+             ? width
+             : static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - labels);
 }
 
 /// Wall where it is likelier than obstacle, among what stands up. `lead`: by how much colour has
@@ -136,16 +145,14 @@ void FusedLabels::correct_row(std::size_t width, const RowScores& row, const std
   judge_standing(bins, color_is_used_ ? evidence_.wall_lead().data() : kNone.data(),
                  row.wall[kWallIndex] - row.wall[kObstacleIndex],
                  row.obstacle[kWallIndex] - row.obstacle[kObstacleIndex], width, labels);
-  std::uint8_t* const end = labels + width;
-  for (std::uint8_t* at = std::find(labels, end, kUnknown); at != end;
-       at = std::find(at + 1, end, kUnknown)) {
-    *at = sure_standing(row.unknown + evidence(static_cast<std::size_t>(at - labels)));
+  for (std::size_t u = next(labels, 0, width, kUnknown); u < width;
+       u = next(labels, u + 1, width, kUnknown)) {
+    labels[u] = sure_standing(row.unknown + evidence(u));
   }
   if (!row.judges_floor) return;
-  for (std::uint8_t* at = std::find(labels, end, kAccessible); at != end;
-       at = std::find(at + 1, end, kAccessible)) {
-    const auto u = static_cast<std::size_t>(at - labels);
-    if (is_doubtful(row.accessible + evidence(u))) *at = kUnknown;
+  for (std::size_t u = next(labels, 0, width, kAccessible); u < width;
+       u = next(labels, u + 1, width, kAccessible)) {
+    if (is_doubtful(row.accessible + evidence(u))) labels[u] = kUnknown;
   }
 }
 
