@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -42,8 +43,8 @@ class RecordingClock {
 };
 
 void drop_far_readings(DepthImage& depth) {
-  const int farthest = static_cast<int>(kDepthMax_m / depth.unit_m + 0.5);
-  kinect::drop_depths_above(std::min(farthest, 65534), depth.steps);
+  const auto farthest = std::min<long>(std::lround(kDepthMax_m / depth.unit_m), 65534);
+  kinect::drop_depths_above(static_cast<int>(farthest), depth.steps);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ constexpr double kFarthest_m = 1e5;  // of a pose from its start
 constexpr Duration kIntervalMax = std::chrono::seconds(5);
 constexpr Duration kAheadMax = milliseconds(200);
 constexpr double kMarkStep_m = 0.02;
-constexpr int kReverseSteps = static_cast<int>(kReverse_m / kMarkStep_m + 0.5);
+constexpr int kReverseSteps = 25;
+static_assert(kReverseSteps * kMarkStep_m == kReverse_m);
 
 bool is_sound(const OdometrySample& sample) {
   const Pose2& pose = sample.T_odom_robot;
