@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "common/frames/jpeg.h"
 #include "logs/tools/whole_file.h"
 
 namespace roomwise {
@@ -58,12 +58,9 @@ JpegImage read_color_as_jpeg(const std::filesystem::path& path) {
 
 JpegImage encode_jpeg(const ColorImage& color) {
   if (color.empty()) return {};
-  const cv::Mat3b rgb(color.height_px, color.width_px,
-                      reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(color.rgb.data())));
-  cv::Mat3b bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  JpegImage jpeg{.width_px = bgr.cols, .height_px = bgr.rows, .bytes = {}, .reencoded = true};
-  cv::imencode(".jpg", bgr, jpeg.bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  JpegImage jpeg{
+      .width_px = color.width_px, .height_px = color.height_px, .bytes = {}, .reencoded = true};
+  JpegEncoder().encode(color.rgb, color.width_px, color.height_px, kJpegQuality, jpeg.bytes);
   return jpeg;
 }
 

@@ -22,7 +22,6 @@
 namespace roomwise {
 namespace {
 
-constexpr std::int64_t kFirstFrame_utime = 1356998400000000;  // 2013-01-01 00:00 UTC
 constexpr std::int64_t kRate_hz = 30;
 constexpr double kDepthUnit_m = 0.001;
 constexpr std::uint16_t kNoReading = 65535;
@@ -146,7 +145,7 @@ ImportedFrame read_frame(int number, const std::filesystem::path& depth_path) {
   ImportedFrame frame;
   frame.seq = number + 1;
   frame.device_time_us = std::int64_t{number} * 1000000 / kRate_hz;
-  frame.utime = kFirstFrame_utime + frame.device_time_us;
+  frame.utime = kUndated_utime + frame.device_time_us;
   frame.depth = read_depth_png(depth_path, kDepthUnit_m);
   std::ranges::replace(frame.depth.steps, kNoReading, std::uint16_t{0});
   const auto png = sibling(depth_path, ".color.png");

@@ -38,7 +38,7 @@ class RecordingClock {
  private:
   static constexpr std::int64_t kPeriod_us = 33'333;
   static constexpr std::int64_t kLeap_us = 3'600'000'000;
-  std::int64_t utime_ = 1'356'998'400'000'000 - kPeriod_us;  // a frame before 2013-01-01 00:00 UTC
+  std::int64_t utime_ = kUndated_utime - kPeriod_us;
   std::optional<std::int64_t> last_us_;
 };
 

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
+#include "common/openni2/keep_open.h"
 #include "common/openni2/openni_error.h"
 #include "common/openni2/openni_images.h"
 #include "services/kinect_pub/core/camera_geometry.h"
@@ -28,18 +27,6 @@ constexpr int kPatience_ms = 5'000;                 // for an image that is read
 constexpr std::uint64_t kLatest_us = 100'000'000'000'000'000;
 constexpr float kOnDemand = -1.0F;  // OpenNI2's playback speed: as images are read
 
-PinholeCamera camera_of(const openni::VideoStream& stream) {
-  const openni::VideoMode mode = stream.getVideoMode();
-  return kinect::camera_from_fields_of_view(mode.getResolutionX(), mode.getResolutionY(),
-                                            stream.getHorizontalFieldOfView(),
-                                            stream.getVerticalFieldOfView());
-}
-
-bool is_usable(const PinholeCamera& camera) {
-  return std::isfinite(camera.fx_px) && std::isfinite(camera.fy_px) && camera.fx_px > 0.0 &&
-         camera.fy_px > 0.0;
-}
-
 }  // namespace
 
 struct OniRecording::Streams {
@@ -54,13 +41,6 @@ struct OniRecording::Streams {
     return device.getPlaybackControl()->getNumberOfFrames(stream);
   }
 };
-
-/// OpenNI2's player (2.2.0.33) looks at its streams while they are freed, and crashes: a recording
-/// that was opened stays so until the process ends.
-void OniRecording::keep_open(std::unique_ptr<Streams> streams) {
-  static auto& kept = *new std::vector<std::unique_ptr<Streams>>();
-  kept.push_back(std::move(streams));
-}
 
 OniRecording::OniRecording(const std::filesystem::path& path)
     : path_(path), streams_(std::make_unique<Streams>()) {
@@ -86,9 +66,9 @@ OniRecording::OniRecording(const std::filesystem::path& path)
   if (streams_->device.hasSensor(openni::SENSOR_COLOR)) {
     start(streams_->color, openni::SENSOR_COLOR, streams_->left[1]);
   }
-  depth_camera_ = camera_of(streams_->depth);
-  color_camera_ = has_color() ? camera_of(streams_->color) : PinholeCamera{};
-  if (!is_usable(depth_camera_) || (has_color() && !is_usable(color_camera_))) {
+  depth_camera_ = kinect::camera_of(streams_->depth);
+  color_camera_ = has_color() ? kinect::camera_of(streams_->color) : PinholeCamera{};
+  if (!kinect::is_usable(depth_camera_) || (has_color() && !kinect::is_usable(color_camera_))) {
     refuse("states no field of view");
   }
 }

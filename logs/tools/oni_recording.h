@@ -35,7 +35,6 @@ class OniRecording {
 
  private:
   struct Streams;
-  static void keep_open(std::unique_ptr<Streams> streams);
   [[noreturn]] void refuse(const std::string& what) const;
 
   std::filesystem::path path_;

@@ -24,6 +24,9 @@ struct ImportedFrame {
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
 };
 
+/// When recordings begin that do not say when they were made: 2013-01-01 00:00 UTC.
+inline constexpr std::int64_t kUndated_utime = 1'356'998'400'000'000;
+
 /// Writes KINECT_FRAME and TRUTH into a log.
 class RgbdLog {
  public:

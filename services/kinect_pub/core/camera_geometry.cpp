@@ -12,6 +12,11 @@ PinholeCamera camera_from_fields_of_view(int width_px, int height_px, double hor
           .cy_px = height_px / 2.0};
 }
 
+bool is_usable(const PinholeCamera& camera) {
+  return std::isfinite(camera.fx_px) && std::isfinite(camera.fy_px) && camera.fx_px > 0.0 &&
+         camera.fy_px > 0.0;
+}
+
 Eigen::Isometry3d camera_on_robot(const KinectParams& params) {
   Eigen::Matrix3d R_level_camera;  // camera axes on a robot's when it looks straight ahead
   R_level_camera << 0, 0, 1,       //

@@ -10,6 +10,18 @@ namespace roomwise::kinect {
 PinholeCamera camera_from_fields_of_view(int width_px, int height_px, double horizontal_rad,
                                          double vertical_rad);
 
+/// Camera of an OpenNI2 video stream, by the mode and the fields of view it states.
+template <class Stream>
+PinholeCamera camera_of(const Stream& stream) {
+  const auto mode = stream.getVideoMode();
+  return camera_from_fields_of_view(mode.getResolutionX(), mode.getResolutionY(),
+                                    stream.getHorizontalFieldOfView(),
+                                    stream.getVerticalFieldOfView());
+}
+
+/// Whether its focal lengths are those of a camera: a stream may state no field of view.
+bool is_usable(const PinholeCamera& camera);
+
 /// Pose of the camera (z forward, x right, y down) on the robot (x forward, y left, z up), mounted
 /// as `params` says: p_robot = T p_camera. Yaw turns first, then pitch, then roll, each about the
 /// camera's own axes.

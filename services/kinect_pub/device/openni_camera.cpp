@@ -3,11 +3,10 @@
 #include <OpenNI.h>
 
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
+#include "common/openni2/keep_open.h"
 #include "common/openni2/openni_error.h"
 #include "common/openni2/openni_images.h"
 #include "services/kinect_pub/core/camera_geometry.h"
@@ -27,25 +26,6 @@ std::string serial_of(const openni::Device& device) {
   int size = static_cast<int>(text.size()) - 1;
   const auto status = device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, text.data(), &size);
   return status == openni::STATUS_OK ? std::string(text.data()) : std::string();
-}
-
-PinholeCamera camera_of(const openni::VideoStream& stream) {
-  const openni::VideoMode mode = stream.getVideoMode();
-  return kinect::camera_from_fields_of_view(mode.getResolutionX(), mode.getResolutionY(),
-                                            stream.getHorizontalFieldOfView(),
-                                            stream.getVerticalFieldOfView());
-}
-
-bool is_usable(const PinholeCamera& camera) {
-  return std::isfinite(camera.fx_px) && std::isfinite(camera.fy_px) && camera.fx_px > 0.0 &&
-         camera.fy_px > 0.0;
-}
-
-/// OpenNI2's player (2.2.0.33) looks at its streams while they are freed, and crashes: a recording
-/// that has played stays open until the process ends.
-void keep_open(std::unique_ptr<OpenedStreams> streams) {
-  static auto& kept = *new std::vector<std::unique_ptr<OpenedStreams>>();
-  kept.push_back(std::move(streams));
 }
 
 }  // namespace
@@ -150,11 +130,11 @@ void OpenNiCamera::describe() {
   facts_.mirrored_by_device = depth_mirrored_ || color_mirrored_;
   facts_.depth_width_px = depth_.getVideoMode().getResolutionX();
   facts_.depth_height_px = depth_.getVideoMode().getResolutionY();
-  facts_.depth_camera = camera_of(depth_);
+  facts_.depth_camera = kinect::camera_of(depth_);
   if (request_.use_color) {
     facts_.color_width_px = color_.getVideoMode().getResolutionX();
     facts_.color_height_px = color_.getVideoMode().getResolutionY();
-    facts_.color_camera = camera_of(color_);
+    facts_.color_camera = kinect::camera_of(color_);
     // Registered depth is the depth that the colour camera would see.
     if (facts_.depth_registered) {
       facts_.depth_camera = kinect::camera_from_fields_of_view(
@@ -162,7 +142,8 @@ void OpenNiCamera::describe() {
           color_.getVerticalFieldOfView());
     }
   }
-  if (!is_usable(facts_.depth_camera) || (request_.use_color && !is_usable(facts_.color_camera))) {
+  if (!kinect::is_usable(facts_.depth_camera) ||
+      (request_.use_color && !kinect::is_usable(facts_.color_camera))) {
     refuse("states no field of view");
   }
 }

@@ -25,11 +25,6 @@ class FusedLabels {
   void correct(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                std::vector<std::uint8_t>& labels);
 
-  /// w of the last frame.
-  double color_reliability_ratio() const {
-    return color_is_used_ ? evidence_.reliability_ratio() : 0.0;
-  }
-
  private:
   /// What is known of a row's pixels but for their colour: log scores by geometry's label.
   struct RowScores {

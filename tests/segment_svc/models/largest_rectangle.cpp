@@ -1,5 +1,7 @@
 #include "tests/segment_svc/models/largest_rectangle.h"
 
+#include <algorithm>
+
 namespace roomwise::segment {
 namespace {
 

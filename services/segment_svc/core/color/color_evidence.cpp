@@ -55,8 +55,7 @@ std::vector<ClassScores> histogram_of(const ClassMixtures& mixtures) {
 ROOMWISE_MULTIVERSION
 void bins_of(const std::uint8_t* rgb, std::size_t count, std::uint16_t* __restrict bins) {
   for (std::size_t i = 0; i < count; ++i) {
-    bins[i] = static_cast<std::uint16_t>((rgb[3 * i] >> 4) << 8 | (rgb[3 * i + 1] >> 4) << 4 |
-                                         rgb[3 * i + 2] >> 4);
+    bins[i] = static_cast<std::uint16_t>(ColorEvidence::bin(rgb + 3 * i));
   }
 }
 
