@@ -73,7 +73,8 @@ void PilotService::on_segments(const segmentation_t& message) {
   if (!is_time(message.utime)) return bus_.count("segments_time_invalid");
   const Time time = time_from_utime(message.utime);
   count("segments", pilot_.add_view(time, {message.bin_first_bearing_rad, message.bin_step_rad,
-                                           message.free_range_m, message.unknown_ratio}));
+                                           message.free_range_m, message.unknown_ratio,
+                                           message.obstacle_range_m}));
   advance(time - kStatePeriod);
 }
 

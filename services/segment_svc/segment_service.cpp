@@ -50,9 +50,11 @@ void fill_bearings(const std::array<segment::BearingBin, segment::FreeRange::kBi
   message.bin_step_rad = segment::FreeRange::step_rad();
   message.free_range_m.clear();
   message.unknown_ratio.clear();
+  message.obstacle_range_m.clear();
   for (const segment::BearingBin& bin : bearings) {
     message.free_range_m.push_back(bin.free_range_m);
     message.unknown_ratio.push_back(bin.unknown_ratio);
+    message.obstacle_range_m.push_back(bin.obstacle_range_m);
   }
 }
 

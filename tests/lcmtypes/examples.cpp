@@ -261,6 +261,7 @@ segmentation_t example() {
           .bin_step_rad = 0.0625,
           .free_range_m = {1.1, 2.2},
           .unknown_ratio = {0.1, 0.2},
+          .obstacle_range_m = {1.15, 0.0},
           .mean_distance_m = 2.1,
           .safe_distance_m = 0.2,
           .near_distance_m = 0.9,

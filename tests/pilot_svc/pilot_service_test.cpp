@@ -47,6 +47,7 @@ class PilotServiceTest : public testing::Test {
     message.bin_step_rad = 0.02;
     message.free_range_m.assign(41, free_m);
     message.unknown_ratio.assign(41, 0.0);
+    message.obstacle_range_m.assign(41, 0.0);
     send(channels::kSegments, message);
   }
   void send_second_of_both(std::int64_t from_ms) {

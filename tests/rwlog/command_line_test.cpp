@@ -152,6 +152,7 @@ class RwlogFrames : public Rwlog {
     message.label_size = 320 * 240;
     message.free_range_m = {1.0, 2.5};
     message.unknown_ratio = {0.0, 0.1};
+    message.obstacle_range_m = {1.1, 0.0};
     message.bin_count = 2;
     message.bin_step_rad = 0.3;
     return message;

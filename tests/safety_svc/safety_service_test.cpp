@@ -33,6 +33,7 @@ segmentation_t segments(std::int64_t utime) {
   message.bin_first_bearing_rad = -45.0 * message.bin_step_rad;
   message.free_range_m.assign(91, 3.0);
   message.unknown_ratio.assign(91, 0.0);
+  message.obstacle_range_m.assign(91, 0.0);
   return message;
 }
 

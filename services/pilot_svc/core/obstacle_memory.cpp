@@ -13,6 +13,8 @@ constexpr int kSightingsMax = 4;
 constexpr int kSightingsBlocked = 2;
 constexpr double kFloorNeeded_m = 0.25;     // less of it in view may not be noticed
 constexpr double kNearestReading_m = 0.45;  // no Kinect measures nearer
+constexpr double kFoot_m = 0.5;             // floor before a thing may not be told from it
+constexpr double kNowhere_m = 1e3;
 
 Duration to_duration(double time_s) { return Duration{static_cast<std::int64_t>(time_s * 1e6)}; }
 
@@ -29,8 +31,9 @@ bool all_finite(std::span<const double> values) {
 bool is_view(const FreeView& view) {
   const std::size_t bins = view.free_range_m.size();
   return bins > 0 && bins <= kBinsMax && view.unknown_ratio.size() == bins &&
-         std::abs(view.first_bearing_rad) < 7.0 && std::abs(view.bearing_step_rad) < 1.0 &&
-         all_finite(view.free_range_m) && all_finite(view.unknown_ratio);
+         view.obstacle_range_m.size() == bins && std::abs(view.first_bearing_rad) < 7.0 &&
+         std::abs(view.bearing_step_rad) < 1.0 && all_finite(view.free_range_m) &&
+         all_finite(view.unknown_ratio) && all_finite(view.obstacle_range_m);
 }
 
 /// First and last of the bins in view that are not at the view's edges.
@@ -45,15 +48,26 @@ std::pair<std::size_t, std::size_t> bins_well_in_view(const FreeView& view) {
   return {first_bin + kEdgeBins, bins_to_last - 1 - kEdgeBins};
 }
 
-/// Of the bin and its neighbours that are in view.
-double median_m(const FreeView& view, std::size_t k) {
-  const auto at = [&](std::size_t i) { return std::max(view.free_range_m[i], 0.0); };
+/// Of `at` for the bin and its neighbours that are in view.
+template <class At>
+double median_m(const FreeView& view, std::size_t k, const At& at) {
   const bool has_left = k > 0 && view.unknown_ratio[k - 1] < 1.0;
   const bool has_right = k + 1 < view.free_range_m.size() && view.unknown_ratio[k + 1] < 1.0;
   if (!has_left || !has_right) return at(k);
   const double low_m = std::min(at(k - 1), at(k + 1));
   const double high_m = std::max(at(k - 1), at(k + 1));
   return std::clamp(at(k), low_m, high_m);
+}
+
+double free_m(const FreeView& view, std::size_t k) {
+  return median_m(view, k, [&](std::size_t i) { return std::max(view.free_range_m[i], 0.0); });
+}
+
+/// To what is seen to stand along the bearing; far beyond all reach if nothing is.
+double obstacle_m(const FreeView& view, std::size_t k) {
+  return median_m(view, k, [&](std::size_t i) {
+    return view.obstacle_range_m[i] > 0.0 ? view.obstacle_range_m[i] : kNowhere_m;
+  });
 }
 
 }  // namespace
@@ -70,9 +84,10 @@ bool ObstacleMemory::see(Time now, const Pose2& T_odom_robot, const FreeView& vi
       if (view.unknown_ratio[k] >= 1.0) continue;  // not in view
       const double bearing_rad =
           view.first_bearing_rad + static_cast<double>(k) * view.bearing_step_rad;
-      const double free_m = median_m(view, k);
-      if (is_end && k >= first && k <= last) see_end(now, T_odom_robot, bearing_rad, free_m);
-      if (!is_end) see_floor(now, T_odom_robot, bearing_rad, free_m);
+      const double way_m = free_m(view, k);
+      if (!is_end) see_floor(now, T_odom_robot, bearing_rad, way_m);
+      if (!is_end || k < first || k > last) continue;
+      see_end(now, T_odom_robot, bearing_rad, way_m, obstacle_m(view, k));
     }
   }
   return true;
@@ -92,11 +107,20 @@ void ObstacleMemory::see_floor(Time now, const Pose2& T_odom_robot, double beari
   }
 }
 
-void ObstacleMemory::see_end(Time now, const Pose2& T_odom_robot, double bearing_rad,
-                             double free_m) {
+void ObstacleMemory::see_end(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m,
+                             double obstacle_m) {
   if (free_m >= params_.reach_m) return;
-  if (free_m == 0.0) return guess(now, T_odom_robot, bearing_rad);
-  set(now, on_ray(T_odom_robot, bearing_rad, free_m + 0.5 * kCell_m), true, params_.memory_s);
+  const double floor_from_m = params_.floor_seen_from_m / std::cos(bearing_rad);
+  const double seen_to_m = std::max(free_m, floor_from_m);
+  if (obstacle_m < seen_to_m + kFoot_m) {
+    // That it went away again would not be seen so near.
+    const double for_s = obstacle_m < floor_from_m ? params_.near_memory_s : params_.memory_s;
+    set(now, on_ray(T_odom_robot, bearing_rad, obstacle_m), true, for_s);
+  } else if (free_m == 0.0) {
+    guess(now, T_odom_robot, bearing_rad);
+  } else {
+    set(now, on_ray(T_odom_robot, bearing_rad, free_m + 0.5 * kCell_m), true, params_.memory_s);
+  }
 }
 
 void ObstacleMemory::guess(Time now, const Pose2& T_odom_robot, double bearing_rad) {

@@ -15,15 +15,18 @@ struct FreeView {
   double first_bearing_rad = 0.0;
   double bearing_step_rad = 0.0;
   std::span<const double> free_range_m;
-  std::span<const double> unknown_ratio;  ///< as many; 1: not in view
+  std::span<const double> unknown_ratio;     ///< as many; 1: not in view
+  std::span<const double> obstacle_range_m;  ///< as many; to what is seen to stand there; 0: none
 };
 
 /// What stands round the robot, in cells of 5 cm of the odom frame, kept while the camera, which
 /// looks forward only, sees something else.
 ///
 /// Along a bearing with free range f: floor_seen_from .. f is free, and what ends it stands at f.
-/// With f = 0 the floor did not come into view: unless something is remembered there already,
-/// something is guessed to stand between what a Kinect can measure and where floor is first seen.
+/// Floor is seen to end a little before what stands on it: if that is seen, it stands where it is
+/// seen. With f = 0 the floor did not come into view; if nothing near is seen to hide it and
+/// nothing is remembered there already, something is guessed to stand between what a Kinect can
+/// measure and where floor is first seen.
 ///
 /// Each reading is the median of a bin and its neighbours, and a cell counts as blocked from the
 /// second frame on that sees something end there, less those that see floor only: a single bin that
@@ -77,7 +80,8 @@ class ObstacleMemory {
   bool is_blocked(Time now, const Eigen::Vector2d& p_odom_m) const;
   void set(Time now, const Eigen::Vector2d& p_odom_m, bool is_blocked, double for_s);
   void see_floor(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
-  void see_end(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m);
+  void see_end(Time now, const Pose2& T_odom_robot, double bearing_rad, double free_m,
+               double obstacle_m);
   void guess(Time now, const Pose2& T_odom_robot, double bearing_rad);
 
   PilotParams params_;

@@ -120,6 +120,8 @@ void Pilot::add_refusal(const Eigen::Vector2d& p_robot_m) {
   const bool is_near = p_robot_m.norm() < params_.reach_m;  // false for NaN
   if (track_count_ == 0 || !is_near) return;
   const OdometrySample& last = track_[(track_count_ - 1) % kTrack];
+  auto* circle = std::get_if<Circle>(&behaviour_);
+  if (circle != nullptr && circle->look_toward(last.T_odom_robot, p_robot_m)) return;
   memory_.refuse(last.time, transform(last.T_odom_robot, p_robot_m));
 }
 

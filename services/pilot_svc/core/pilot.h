@@ -62,7 +62,7 @@ class Pilot {
   [[nodiscard]] InputResult add_pose(Time time, const Pose2& T_map_robot, bool is_tracking);
   void set_hold(Hold hold) { hold_ = hold; }
   /// safety_svc does not let it go there (robot frame of now): ways through that place are not
-  /// taken for a while.
+  /// taken for a while, or a circle looks there first.
   void add_refusal(const Eigen::Vector2d& p_robot_m);
 
   Motion tick(Time now);

@@ -18,14 +18,15 @@ struct PilotParams {
   double floor_seen_from_m = 0.8;  ///< nearer than this the camera does not see the floor
   double blind_m = 1.0;            ///< ways never seen count as free so far, to be looked at
   double memory_s = 60.0;          ///< how long what was seen to stand somewhere is remembered
+  double near_memory_s = 20.0;     ///< the same for what stands nearer than floor is seen
   double guess_memory_s = 5.0;     ///< the same for what is only known to be near
   double refusal_memory_s = 20.0;  ///< the same for where safety_svc lets it not go
 
-  double way_min_m = 0.45;         ///< a direction with less free way is not taken
-  double turn_cost_ratio = 0.35;   ///< of a direction's score, for turning half round
-  double keep_bonus_ratio = 0.15;  ///< hysteresis: what another direction must be better by
-  double visit_cost_ratio = 1.0;   ///< for a place visited just now
-  double visit_fades_s = 120.0;    ///< visits count less by a factor e after this
+  double way_min_m = 0.45;        ///< a direction with less free way is not taken
+  double turn_cost_ratio = 0.35;  ///< of a direction's score, for turning half round
+  double keep_bonus_ratio = 0.5;  ///< hysteresis: what another direction must be better by
+  double visit_cost_ratio = 1.0;  ///< for a place visited just now
+  double visit_fades_s = 120.0;   ///< visits count less by a factor e after this
 
   double look_every_m = 0.25;   ///< circle: turns toward the object after that way ...
   double look_every_rad = 0.5;  ///< ... or that turn
@@ -58,6 +59,7 @@ struct PilotParams {
     field("floor_seen_from_m", floor_seen_from_m, 0.1, 2.0);
     field("blind_m", blind_m, 0.1, 2.0);
     field("memory_s", memory_s, 1.0, 600.0);
+    field("near_memory_s", near_memory_s, 0.1, 600.0);
     field("guess_memory_s", guess_memory_s, 0.1, 600.0);
     field("refusal_memory_s", refusal_memory_s, 0.1, 600.0);
     field("way_min_m", way_min_m, 0.1, 2.0);

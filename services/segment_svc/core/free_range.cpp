@@ -91,6 +91,7 @@ void FreeRange::end(double row_gap_per_m2, std::array<BearingBin, kBins>& bins) 
                                 ? static_cast<double>(direction.unknown_pixels) / direction.pixels
                                 : 1.0;
     bins[k].free_range_m = free_range_m(direction, 3.0 * row_gap_per_m2);
+    bins[k].obstacle_range_m = obstacle_range_m(direction);
   }
 }
 
@@ -109,6 +110,13 @@ double FreeRange::free_range_m(const Direction& direction, double gap_per_m2) co
     }
   }
   return free_m;
+}
+
+double FreeRange::obstacle_range_m(const Direction& direction) {
+  const auto first = std::find_if(direction.blocked.begin(), direction.blocked.end(),
+                                  [](std::uint16_t pixels) { return pixels >= kBlockedMin; });
+  if (first == direction.blocked.end()) return 0.0;
+  return (static_cast<double>(first - direction.blocked.begin()) + 0.5) * kCell_m;
 }
 
 }  // namespace roomwise::segment

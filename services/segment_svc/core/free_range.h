@@ -12,6 +12,9 @@ namespace roomwise::segment {
 struct BearingBin {
   double free_range_m = 0.0;   ///< floor is seen without a gap, from where it comes into view
   double unknown_ratio = 1.0;  ///< share of the direction's pixels that are unknown; 1: not in view
+  /// To the nearest obstacle, wall or drop-off seen, lower than the robot, though no floor may be
+  /// seen before it; 0: none within 6 m.
+  double obstacle_range_m = 0.0;
 };
 
 /// How far the way is free along each bearing, 1 degree apart.
@@ -46,6 +49,7 @@ class FreeRange {
     int unknown_pixels;
   };
   double free_range_m(const Direction& direction, double gap_per_m2) const;
+  static double obstacle_range_m(const Direction& direction);
 
   double robot_height_m_;
   std::vector<Direction> directions_ = std::vector<Direction>(kBins);

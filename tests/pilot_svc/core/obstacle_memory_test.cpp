@@ -16,12 +16,13 @@ constexpr Time kNow = time_from_utime(1'000'000'000);
 
 class ObstacleMemoryTest : public testing::Test {
  protected:
-  bool see(double free_m, double unknown = 0.0) {
+  bool see(double free_m, double obstacle_m = 0.0, double unknown = 0.0) {
     // The middle bins are well within the view; those at the edges see nothing end.
     std::vector<double> free(kBins, 5.0);
     const std::vector<double> ratio(kBins, unknown);
     for (std::size_t k = kBins / 2 - 1; k <= kBins / 2 + 1; ++k) free[k] = free_m;
-    const FreeView view{kBin_rad, kBin_rad, free, ratio};
+    const std::vector<double> obstacle(kBins, obstacle_m);
+    const FreeView view{kBin_rad, kBin_rad, free, ratio, obstacle};
     for (int frame = 0; frame < 4; ++frame) {
       now_ += kFrame;
       if (!memory_.see(now_, {}, view)) return false;
@@ -68,25 +69,52 @@ TEST_F(ObstacleMemoryTest, SomethingTooNearToBeMeasuredIsGuessedOnlyWhereNothing
   EXPECT_EQ(points().size(), 1U);
 }
 
+TEST_F(ObstacleMemoryTest, WhatIsSeenToStandBeforeAllFloorInViewIsNotGuessed) {
+  for (const double stands_m : {0.525, 0.975}) {
+    memory_.forget();
+    ASSERT_TRUE(see(0.0, stands_m));
+    ASSERT_EQ(points().size(), 1U);
+    EXPECT_NEAR(points()[0].x(), stands_m, 0.026);
+  }
+}
+
+TEST_F(ObstacleMemoryTest, WhatIsSeenALittleBehindTheFloorsEndStandsWhereItIsSeen) {
+  ASSERT_TRUE(see(1.5, 1.825));
+  ASSERT_EQ(points().size(), 1U);
+  EXPECT_NEAR(points()[0].x(), 1.825, 0.026);
+}
+
+TEST_F(ObstacleMemoryTest, WhatIsSeenFarBehindTheFloorsEndDoesNotOpenTheWayToIt) {
+  ASSERT_TRUE(see(1.5, 2.5));
+  ASSERT_EQ(points().size(), 1U);
+  EXPECT_NEAR(points()[0].x(), 1.525, 0.05);
+  memory_.forget();
+  ASSERT_TRUE(see(0.0, 2.5));
+  ASSERT_EQ(points().size(), 1U);
+  EXPECT_NEAR(points()[0].x(), 0.625, 0.05);
+}
+
 TEST_F(ObstacleMemoryTest, OneSightingOrOneBinAloneTurnsNobodyAside) {
   const std::vector<double> known(kBins, 0.0);
+  const std::vector<double> nothing(kBins, 0.0);
   std::vector<double> lone(kBins, 5.0);
   lone[kBins / 2] = 1.5;
   const std::vector<double> wide(kBins, 1.5);
   for (int i = 0; i < 5; ++i)
-    ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, lone, known}));
+    ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, lone, known, nothing}));
   EXPECT_TRUE(points().empty());
-  ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, wide, known}));
+  ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, wide, known, nothing}));
   EXPECT_TRUE(points().empty());
-  ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, wide, known}));
+  ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {0.0, 0.02, wide, known, nothing}));
   EXPECT_FALSE(points().empty());
 }
 
 TEST_F(ObstacleMemoryTest, AtTheViewsEdgesEndsSayNothing) {
   const std::vector<double> known{1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  const std::vector<double> nothing(11, 0.0);
   const std::vector<double> ends{0.0, 1.0, 1.0, 1.0, 5.0, 5.0, 5.0, 1.0, 1.0, 1.0, 0.0};
   for (int i = 0; i < 5; ++i)
-    ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {-0.1, 0.02, ends, known}));
+    ASSERT_TRUE(memory_.see(now_ += kFrame, {}, {-0.1, 0.02, ends, known, nothing}));
   EXPECT_TRUE(points().empty());
 }
 
@@ -99,7 +127,7 @@ TEST_F(ObstacleMemoryTest, WhereItWasRefusedSomethingStandsUntilTheFloorIsSeenTh
 }
 
 TEST_F(ObstacleMemoryTest, ABearingOutOfViewSaysNothing) {
-  ASSERT_TRUE(see(0.0, 1.0));
+  ASSERT_TRUE(see(0.0, 0.8, 1.0));
   EXPECT_TRUE(points().empty());
 }
 
@@ -108,8 +136,9 @@ TEST_F(ObstacleMemoryTest, NumbersThatAreNoViewAreRefused) {
   EXPECT_FALSE(memory_.see(now_, {}, {}));
   const std::vector<double> two{1.0, 1.0};
   const std::vector<double> one{0.0};
-  EXPECT_FALSE(memory_.see(now_, {}, {0.0, 0.02, two, one}));
-  EXPECT_FALSE(memory_.see(now_, {}, {1e300, 0.02, one, one}));
+  EXPECT_FALSE(memory_.see(now_, {}, {0.0, 0.02, two, one, two}));
+  EXPECT_FALSE(memory_.see(now_, {}, {0.0, 0.02, two, two, one}));
+  EXPECT_FALSE(memory_.see(now_, {}, {1e300, 0.02, one, one, one}));
   EXPECT_TRUE(points().empty());
 }
 

@@ -20,7 +20,7 @@ class PilotTest : public testing::Test {
     for (int i = 0; i < static_cast<int>(for_s * 20.0); ++i) {
       now_ += std::chrono::milliseconds(50);
       if (odometry) (void)pilot_.add_odometry({now_, {}, 0});
-      if (view) (void)pilot_.add_view(now_, {-0.4, 0.02, free_m_, unknown_});
+      if (view) (void)pilot_.add_view(now_, {-0.4, 0.02, free_m_, unknown_, nothing_});
       motion = pilot_.tick(now_);
     }
     return motion;
@@ -30,6 +30,7 @@ class PilotTest : public testing::Test {
   Time now_ = time_from_utime(1'000'000'000);
   std::vector<double> free_m_ = std::vector<double>(41, 2.5);
   std::vector<double> unknown_ = std::vector<double>(41, 0.0);
+  const std::vector<double> nothing_ = std::vector<double>(41, 0.0);
   Pilot pilot_{PilotParams{}};
 };
 
@@ -72,7 +73,7 @@ TEST_F(PilotTest, BadInputChangesNothing) {
   EXPECT_EQ(pilot_.add_odometry({now_ - std::chrono::milliseconds(80), {}, 0}),
             InputResult::kOutOfOrder);
   EXPECT_EQ(pilot_.add_pose(now_, {0.0, kNotANumber, 0.0}, true), InputResult::kNotFinite);
-  EXPECT_EQ(pilot_.add_view(now_ + std::chrono::hours(1), {0.0, 0.1, free_m_, unknown_}),
+  EXPECT_EQ(pilot_.add_view(now_ + std::chrono::hours(1), {0.0, 0.1, free_m_, unknown_, nothing_}),
             InputResult::kNoOdometry);
   EXPECT_GT(run(0.05).speed_mps, 0.1);
 }
@@ -130,7 +131,7 @@ TEST_F(PilotTest, CircleWithNothingInSightSaysSo) {
   for (int i = 0; i < 2000 && state() != State::kFailed; ++i) {
     now_ += std::chrono::milliseconds(50);
     ASSERT_EQ(pilot_.add_odometry({now_, {0.0, 0.0, heading_rad}, 0}), InputResult::kUsed);
-    (void)pilot_.add_view(now_, {-0.4, 0.02, free_m_, unknown_});
+    (void)pilot_.add_view(now_, {-0.4, 0.02, free_m_, unknown_, nothing_});
     heading_rad = wrap_angle(heading_rad + 0.05 * pilot_.tick(now_).turn_rate_radps);
   }
   EXPECT_EQ(pilot_.report().failure, Failure::kNoObject);

@@ -16,7 +16,10 @@ constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr int kBins = 91;
 constexpr double kViewHalf_rad = 28.5 * kDegree_rad;
 constexpr double kFloorSeenFrom_m = 0.75;
+constexpr double kFloorNeeded_m = 0.25;
+constexpr double kNearestReading_m = 0.45;
 constexpr double kRangeMax_m = 4.5;
+constexpr double kCell_m = 0.05;
 constexpr double kSightHeight_m = 0.6;
 
 Eigen::Vector2d unit(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
@@ -95,7 +98,7 @@ void KinematicWorld::step(const Motion& asked) {
   runs_into_ = runs_into;
 }
 
-double KinematicWorld::free_range_m(double bearing_rad) {
+double KinematicWorld::seen_range_m(double bearing_rad) {
   const Pose2& T = T_world_robot();
   double range_m = simulator::free_way_m(sight_plan_, T.position_m(),
                                          unit(T.heading_rad + bearing_rad), kRangeMax_m);
@@ -105,20 +108,36 @@ double KinematicWorld::free_range_m(double bearing_rad) {
   if (std::bernoulli_distribution(noise_.dropout_probability)(random_)) {
     range_m *= std::uniform_real_distribution<double>(0.3, 1.0)(random_);
   }
-  if (range_m < kFloorSeenFrom_m / std::cos(bearing_rad)) return 0.0;
-  return std::floor(range_m / 0.05) * 0.05;
+  return range_m;
+}
+
+/// Little floor before something is not told from it, and what is too near is not measured.
+void KinematicWorld::see(double bearing_rad) {
+  const double range_m = seen_range_m(bearing_rad);
+  const double cell_m = std::floor(range_m / kCell_m) * kCell_m;
+  const bool shows_floor = range_m > kFloorSeenFrom_m / std::cos(bearing_rad) + kFloorNeeded_m;
+  const bool is_measured = range_m > kNearestReading_m && range_m < kRangeMax_m;
+  free_range_m_.push_back(shows_floor ? cell_m : 0.0);
+  obstacle_range_m_.push_back(is_measured ? cell_m + 0.5 * kCell_m : 0.0);
+  unknown_ratio_.push_back(0.05);
 }
 
 FreeView KinematicWorld::view() {
   free_range_m_.clear();
+  obstacle_range_m_.clear();
   unknown_ratio_.clear();
   for (int k = 0; k < kBins; ++k) {
     const double bearing_rad = (k - kBins / 2) * kDegree_rad;
-    const bool in_view = std::abs(bearing_rad) < kViewHalf_rad;
-    free_range_m_.push_back(in_view ? free_range_m(bearing_rad) : 0.0);
-    unknown_ratio_.push_back(in_view ? 0.05 : 1.0);
+    if (std::abs(bearing_rad) < kViewHalf_rad) {
+      see(bearing_rad);
+      continue;
+    }
+    free_range_m_.push_back(0.0);
+    obstacle_range_m_.push_back(0.0);
+    unknown_ratio_.push_back(1.0);
   }
-  return {-(kBins / 2) * kDegree_rad, kDegree_rad, free_range_m_, unknown_ratio_};
+  return {-(kBins / 2) * kDegree_rad, kDegree_rad, free_range_m_, unknown_ratio_,
+          obstacle_range_m_};
 }
 
 }  // namespace roomwise::pilot

@@ -43,7 +43,8 @@ class KinematicWorld {
  private:
   bool meets(double way_m) const;
   Motion grant(const Motion& asked) const;
-  double free_range_m(double bearing_rad);
+  double seen_range_m(double bearing_rad);
+  void see(double bearing_rad);
 
   simulator::Scene scene_;
   ViewNoise noise_;
@@ -59,6 +60,7 @@ class KinematicWorld {
   bool runs_into_ = false;
   std::vector<double> free_range_m_;
   std::vector<double> unknown_ratio_;
+  std::vector<double> obstacle_range_m_;
 };
 
 /// A scenario of the simulator by name.

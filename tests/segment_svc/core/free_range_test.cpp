@@ -34,6 +34,16 @@ TEST(FreeRange, EndsAtTheWallAlongEveryBearing) {
   }
 }
 
+TEST(FreeRange, TellsWhereSomethingStandsThoughItHidesAllFloor) {
+  const Segmentation result = segmented(render(room_with_wall(0.55), kRobot, Pose2{}, 1));
+  for (std::size_t k = kAhead - 20; k <= kAhead + 20; ++k) {
+    const double bearing_rad =
+        FreeRange::first_bearing_rad() + static_cast<double>(k) * FreeRange::step_rad();
+    EXPECT_EQ(result.bearings[k].free_range_m, 0.0);
+    EXPECT_NEAR(result.bearings[k].obstacle_range_m, 0.55 / std::cos(bearing_rad), 0.05) << k;
+  }
+}
+
 TEST(FreeRange, BearingIsPositiveToTheLeft) {
   SyntheticRoom room = room_with_wall(3.0);
   room.boxes.push_back({.low_m = {1.5, 0.3, 0.0}, .high_m = {1.8, 0.6, 0.4}});
