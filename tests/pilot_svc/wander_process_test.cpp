@@ -15,7 +15,7 @@ TEST(WanderProcess, DrivesThroughTheLivingRoomWithoutAContact) {
   Trial trial;
   trial.setup.url = "udpm://239.255.76.67:27768?ttl=0";
   trial.setup.scenario = "living_room";
-  trial.goal.behaviour = pilot_goal_t::BEHAVIOUR_WANDER;
+  trial.goals.emplace_back().behaviour = pilot_goal_t::BEHAVIOUR_WANDER;
   trial.patience_s = 25.0;
   const Verdict verdict = run_trial(trial);
   std::cout << verdict;

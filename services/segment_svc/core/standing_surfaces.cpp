@@ -68,6 +68,11 @@ void widen(const std::uint16_t* steps, float unit_m, const std::uint8_t* labels,
   for (std::size_t u = 0; u < width; ++u) wide_labels[u] = labels[u];
 }
 
+ROOMWISE_MULTIVERSION
+void narrow(const std::int32_t* wide_labels, std::size_t width, std::uint8_t* __restrict labels) {
+  for (std::size_t u = 0; u < width; ++u) labels[u] = static_cast<std::uint8_t>(wide_labels[u]);
+}
+
 /// So far above the first row whose rays meet the floor that a surface's mean has settled there.
 std::size_t first_row(const CameraView& view, const Eigen::Vector3f& n) {
   constexpr float kRowsBefore = 3.0F * kRowsAveraged;
@@ -107,7 +112,7 @@ void StandingSurfaces::mark(const RgbdFrame& frame, const CameraView& view, cons
               .same_per_m = kSame_quanta * view.quantum_per_m(),
               .foot_per_m = kFoot_quanta * view.quantum_per_m()},
              width, surface_per_m_.data(), rows_.data(), label_.data());
-    for (std::size_t u = 0; u < width; ++u) row[u] = static_cast<std::uint8_t>(label_[u]);
+    narrow(label_.data(), width, row);
   }
 }
 

@@ -17,6 +17,7 @@ constexpr float kPixelsMin = 24.0F;  // of 64
 constexpr float kResidual_quanta = 1.5F;
 constexpr float kOnWall_quanta = 4.0F;     // a pixel, against its own or a neighbour's plane
 constexpr float kWallFoot_quanta = 0.75F;  // between wall and floor that differ by less, the wall
+constexpr float kFarInFront_per_m = 1e6F;  // no wall stands so far in front of the floor
 constexpr float kUpright = 0.2F;           // |cosine| between a wall's normal and up
 constexpr float kSameNormal = 0.95F;       // cosine: 18 degrees
 constexpr float kWidth_m = 0.5F;
@@ -43,35 +44,36 @@ void add_row(const std::uint16_t* steps, const std::uint8_t* labels, float y, fl
   }
 }
 
-/// What a row's loop needs to tell wall from floor; planes by their 1 / z on the ray (x, y, 1).
+/// What tells wall from floor; planes by their 1 / z = m . (x, y, 1) on a ray.
 struct OnWallRule {
-  float wall_per_x;  ///< 1 / z of the wall grows so much per ray's x,
-  float wall_per_m;  ///< from this
-  float floor_per_x;
-  float floor_per_m;
+  float wall[3];
+  float floor[3];
   float unit_m;
   float off_per_m;
   float behind_per_m;
 };
 
-/// As many pixels as a cell is wide, so that the compiler knows how many.
+/// A cell's rows, `width` pixels apart, each as many pixels as a cell is wide, so that the compiler
+/// knows how many.
 ROOMWISE_MULTIVERSION
-void relabel_row(const std::uint16_t* steps, const float* ray_x, OnWallRule rule,
-                 std::uint8_t* __restrict labels) {
-  std::array<float, kCell_px> z_m;
-  std::array<std::int32_t, kCell_px> label;
-  for (std::size_t i = 0; i < kCell_px; ++i) z_m[i] = rule.unit_m * static_cast<float>(steps[i]);
-  for (std::size_t i = 0; i < kCell_px; ++i) label[i] = labels[i];
-  for (std::size_t i = 0; i < kCell_px; ++i) {
-    const float wall_per_m = rule.wall_per_x * ray_x[i] + rule.wall_per_m;
-    const float floor_per_m = rule.floor_per_x * ray_x[i] + rule.floor_per_m;
-    const int is_on_wall = std::abs(wall_per_m * z_m[i] - 1.0F) <= rule.off_per_m * z_m[i] ? 1 : 0;
-    const int is_foot = wall_per_m + rule.behind_per_m > floor_per_m ? is_on_wall : 0;
-    int becomes_wall = label[i] == kObstacle ? is_on_wall : 0;
-    becomes_wall = label[i] == kAccessible ? is_foot : becomes_wall;
-    label[i] = becomes_wall != 0 ? std::int32_t{kWall} : label[i];
+void relabel_rows(const std::uint16_t* steps, const float* ray_x, const float* ray_y,
+                  OnWallRule rule, std::size_t rows, std::size_t width,
+                  std::uint8_t* __restrict labels) {
+  for (std::size_t v = 0; v < rows; ++v, steps += width, labels += width) {
+    const float wall_of_row = rule.wall[1] * ray_y[v] + rule.wall[2];
+    const float floor_of_row = rule.floor[1] * ray_y[v] + rule.floor[2];
+    for (std::size_t i = 0; i < kCell_px; ++i) {
+      const float z_m = rule.unit_m * static_cast<float>(steps[i]);
+      const std::int32_t label = labels[i];
+      const float wall_per_m = rule.wall[0] * ray_x[i] + wall_of_row;
+      const float floor_per_m = rule.floor[0] * ray_x[i] + floor_of_row;
+      const int is_on_wall = std::abs(wall_per_m * z_m - 1.0F) <= rule.off_per_m * z_m ? 1 : 0;
+      const int is_foot = wall_per_m + rule.behind_per_m > floor_per_m ? is_on_wall : 0;
+      int becomes_wall = label == kObstacle ? is_on_wall : 0;
+      becomes_wall = label == kAccessible ? is_foot : becomes_wall;
+      labels[i] = static_cast<std::uint8_t>(becomes_wall != 0 ? std::int32_t{kWall} : label);
+    }
   }
-  for (std::size_t i = 0; i < kCell_px; ++i) labels[i] = static_cast<std::uint8_t>(label[i]);
 }
 
 }  // namespace
@@ -217,8 +219,8 @@ void WallCells::relabel(const RgbdFrame& frame, const CameraView& view, const Fl
                         std::vector<std::uint8_t>& labels) const {
   // On the floor 1 / z = floor_m . ray.
   const Eigen::Vector3f floor_m = (-floor.normal / floor.height_m).cast<float>();
-  const auto relabel = [&](int column, int row, const Eigen::Vector3f& plane_m) {
-    relabel_cell(frame, view, column, row, plane_m, floor_m, labels);
+  const auto relabel = [&](int column, int row, const Eigen::Vector3f& plane_m, Foot foot) {
+    relabel_cell(frame, view, column, row, plane_m, floor_m, foot, labels);
   };
   constexpr std::array<std::array<int, 2>, 5> kSelfThenBeside = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
@@ -227,7 +229,7 @@ void WallCells::relabel(const RgbdFrame& frame, const CameraView& view, const Fl
       for (const auto& [right, down] : kSelfThenBeside) {
         if (!is_wall_cell(column + right, row + down)) continue;
         const auto i = static_cast<std::size_t>((row + down) * columns_ + column + right);
-        relabel(column, row, cells_[i].m);
+        relabel(column, row, cells_[i].m, Foot::kIsWall);
         if (right == 0 && down == 0) break;
       }
     }
@@ -236,17 +238,21 @@ void WallCells::relabel(const RgbdFrame& frame, const CameraView& view, const Fl
 }
 
 /// Between cells of one wall, what lies on its plane is that wall: so the strip below a mirror is.
+/// Between cells of two walls in one plane that is so of what stands there; floor there may be a
+/// doorway's.
 template <class Relabel>
 void WallCells::close_holes(int row, const Relabel& relabel) const {
-  int before = -1;  // column of the last wall cell
+  const Cell* before = nullptr;  // the last wall cell
+  int first_hole = 0;
   for (int column = 0; column < columns_; ++column) {
     if (!is_wall_cell(column, row)) continue;
     const Cell& wall = cells_[static_cast<std::size_t>(row * columns_ + column)];
-    const bool is_same =
-        before >= 0 &&
-        cells_[static_cast<std::size_t>(row * columns_ + before)].patch == wall.patch;
-    for (int hole = before + 1; is_same && hole < column; ++hole) relabel(hole, row, wall.m);
-    before = column;
+    if (before != nullptr && are_one_plane(*before, wall)) {
+      const Foot foot = before->patch == wall.patch ? Foot::kIsWall : Foot::kStaysFloor;
+      for (int hole = first_hole; hole < column; ++hole) relabel(hole, row, wall.m, foot);
+    }
+    before = &wall;
+    first_hole = column + 1;
   }
 }
 
@@ -254,26 +260,24 @@ void WallCells::close_holes(int row, const Relabel& relabel) const {
 /// it too where it stands before the floor: the wall's foot.
 void WallCells::relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
                              const Eigen::Vector3f& plane_m, const Eigen::Vector3f& floor_m,
-                             std::vector<std::uint8_t>& labels) const {
+                             Foot foot, std::vector<std::uint8_t>& labels) const {
   const int u_end = std::min((column + 1) * kCell_px, view.width_px());
   const int v_end = std::min((row + 1) * kCell_px, view.height_px());
   // A cell that the image's side cuts takes in its neighbour's last pixels; images are at least as
   // wide as a cell.
   const auto first = static_cast<std::size_t>(std::max(0, u_end - kCell_px));
-  for (int v = row * kCell_px; v < v_end; ++v) {
-    const float y = view.ray_y()[static_cast<std::size_t>(v)];
-    const std::size_t pixel =
-        static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px()) + first;
-    relabel_row(frame.depth.steps.data() + pixel, view.ray_x().data() + first,
-                {.wall_per_x = plane_m.x(),
-                 .wall_per_m = plane_m.y() * y + plane_m.z(),
-                 .floor_per_x = floor_m.x(),
-                 .floor_per_m = floor_m.y() * y + floor_m.z(),
-                 .unit_m = static_cast<float>(view.unit_m()),
-                 .off_per_m = kOnWall_quanta * quantum_per_m_,
-                 .behind_per_m = kWallFoot_quanta * quantum_per_m_},
-                labels.data() + pixel);
-  }
+  const auto top = static_cast<std::size_t>(row * kCell_px);
+  const auto width = static_cast<std::size_t>(view.width_px());
+  const std::size_t pixel = top * width + first;
+  relabel_rows(frame.depth.steps.data() + pixel, view.ray_x().data() + first,
+               view.ray_y().data() + top,
+               {.wall = {plane_m.x(), plane_m.y(), plane_m.z()},
+                .floor = {floor_m.x(), floor_m.y(), floor_m.z()},
+                .unit_m = static_cast<float>(view.unit_m()),
+                .off_per_m = kOnWall_quanta * quantum_per_m_,
+                .behind_per_m =
+                    foot == Foot::kIsWall ? kWallFoot_quanta * quantum_per_m_ : -kFarInFront_per_m},
+               static_cast<std::size_t>(v_end) - top, width, labels.data() + pixel);
 }
 
 }  // namespace roomwise::segment

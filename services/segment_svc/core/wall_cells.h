@@ -43,12 +43,14 @@ class WallCells {
   bool is_wall(const FloorPlane& floor) const;
   bool are_one_plane(const Cell& a, const Cell& b) const;
   bool is_wall_cell(int column, int row) const;
+  /// Of floor pixels that lie on a wall's plane too.
+  enum class Foot : std::uint8_t { kIsWall, kStaysFloor };
   void relabel(const RgbdFrame& frame, const CameraView& view, const FloorPlane& floor,
                std::vector<std::uint8_t>& labels) const;
   template <class Relabel>
   void close_holes(int row, const Relabel& relabel) const;
   void relabel_cell(const RgbdFrame& frame, const CameraView& view, int column, int row,
-                    const Eigen::Vector3f& plane_m, const Eigen::Vector3f& floor_m,
+                    const Eigen::Vector3f& plane_m, const Eigen::Vector3f& floor_m, Foot foot,
                     std::vector<std::uint8_t>& labels) const;
 
   float quantum_per_m_ = 0.0F;

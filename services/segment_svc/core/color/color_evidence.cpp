@@ -1,7 +1,9 @@
 #include "services/segment_svc/core/color/color_evidence.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "common/multiversion.h"
 
@@ -49,6 +51,23 @@ std::vector<ClassScores> histogram_of(const ClassMixtures& mixtures) {
     }
   }
   return histogram;
+}
+
+/// Natural logarithm of positive numbers in place, to a float's last digits: with x = 2^e m and m
+/// between sqrt(1/2) and sqrt(2), e ln 2 + 2 artanh((m - 1) / (m + 1)).
+ROOMWISE_MULTIVERSION
+void take_logarithms(float* x, std::size_t count) {
+  constexpr std::int32_t kRootOfHalf = 0x3f3504f3;  // its bits
+  constexpr int kMantissaBits = 23;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::int32_t>(x[i]);
+    const std::int32_t e = (bits - kRootOfHalf) >> kMantissaBits;
+    const float m = std::bit_cast<float>(bits - e * (1 << kMantissaBits));
+    const float s = (m - 1.0F) / (m + 1.0F);
+    const float s2 = s * s;
+    const float series = s2 * (1.0F / 3 + s2 * (1.0F / 5 + s2 * (1.0F / 7 + s2 / 9.0F)));
+    x[i] = static_cast<float>(e) * std::numbers::ln2_v<float> + 2.0F * (s + s * series);
+  }
 }
 
 /// For colour pixels side by side.
@@ -178,8 +197,12 @@ void ColorEvidence::weigh() {
     for (std::size_t k = 0; k < kTrainedClassCount; ++k) {
       float p = (seen_[i][k] + kFirst_weight / kBinCount) / (seen_weight_[k] + kFirst_weight);
       if (taught_share > 0.0F) p += taught_share * (taught_->histogram[i][k] - p);
-      scores_[i][k] = w * std::log((1.0F - kUnseen_ratio) * p + kUnseen_ratio / kBinCount);
+      scores_[i][k] = (1.0F - kUnseen_ratio) * p + kUnseen_ratio / kBinCount;
     }
+  }
+  take_logarithms(scores_.front().data(), kBins * kTrainedClassCount);
+  for (std::size_t i = 0; i < kBins; ++i) {
+    for (float& score : scores_[i]) score *= w;
     wall_lead_[i] = scores_[i][1] - scores_[i][0];
   }
 }
