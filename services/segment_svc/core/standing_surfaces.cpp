@@ -34,8 +34,8 @@ void mark_row(const float* z_of_column_m, const float* rise_of_column, const flo
     const std::int32_t label = labels[u];
     const float grown = above + 1.0F;
     const float count = grown < kRowsAveraged ? grown : kRowsAveraged;
-    const float per_ahead = 1.0F / (ahead_of_column[u] + rule.ahead);
-    const float per_m = per_ahead / z_of_column_m[u];
+    const float per_m = 1.0F / ((ahead_of_column[u] + rule.ahead) * z_of_column_m[u]);
+    const float per_ahead = z_of_column_m[u] * per_m;
     const float floor_per_m = -(rise_of_column[u] + rule.rise) * rule.per_height_m * per_ahead;
     const float off = per_m - surface;
 

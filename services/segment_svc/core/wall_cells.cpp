@@ -44,6 +44,11 @@ void add_row(const std::uint16_t* steps, const std::uint8_t* labels, float y, fl
   }
 }
 
+/// Which pixels on a wall become wall, as bits: those of something standing, its foot on the floor.
+constexpr std::uint8_t kStanding = 1;
+constexpr std::uint8_t kFoot = 2;
+constexpr std::uint8_t kAnything = kStanding | kFoot;
+
 /// What tells wall from floor; planes by their 1 / z = m . (x, y, 1) on a ray.
 struct OnWallRule {
   float wall[3];
@@ -54,24 +59,42 @@ struct OnWallRule {
 };
 
 /// A cell's rows, `width` pixels apart, each as many pixels as a cell is wide, so that the compiler
-/// knows how many.
+/// knows how many. Numbers of one size at a time: it then takes many at once.
 ROOMWISE_MULTIVERSION
 void relabel_rows(const std::uint16_t* steps, const float* ray_x, const float* ray_y,
                   OnWallRule rule, std::size_t rows, std::size_t width,
                   std::uint8_t* __restrict labels) {
-  for (std::size_t v = 0; v < rows; ++v, steps += width, labels += width) {
+  using Row = std::array<float, kCell_px>;
+  std::array<Row, kCell_px> z_m;
+  std::array<std::array<std::int32_t, kCell_px>, kCell_px> becomes_wall;
+  std::array<std::array<std::uint8_t, kCell_px>, kCell_px> change;
+  for (std::size_t v = 0; v < rows; ++v) {
+    for (std::size_t i = 0; i < kCell_px; ++i) {
+      z_m[v][i] = rule.unit_m * static_cast<float>(steps[v * width + i]);
+    }
+  }
+  for (std::size_t v = 0; v < rows; ++v) {
     const float wall_of_row = rule.wall[1] * ray_y[v] + rule.wall[2];
     const float floor_of_row = rule.floor[1] * ray_y[v] + rule.floor[2];
     for (std::size_t i = 0; i < kCell_px; ++i) {
-      const float z_m = rule.unit_m * static_cast<float>(steps[i]);
-      const std::int32_t label = labels[i];
       const float wall_per_m = rule.wall[0] * ray_x[i] + wall_of_row;
       const float floor_per_m = rule.floor[0] * ray_x[i] + floor_of_row;
-      const int is_on_wall = std::abs(wall_per_m * z_m - 1.0F) <= rule.off_per_m * z_m ? 1 : 0;
-      const int is_foot = wall_per_m + rule.behind_per_m > floor_per_m ? is_on_wall : 0;
-      int becomes_wall = label == kObstacle ? is_on_wall : 0;
-      becomes_wall = label == kAccessible ? is_foot : becomes_wall;
-      labels[i] = static_cast<std::uint8_t>(becomes_wall != 0 ? std::int32_t{kWall} : label);
+      const float off = std::abs(wall_per_m * z_m[v][i] - 1.0F) - rule.off_per_m * z_m[v][i];
+      const int if_on_wall = wall_per_m + rule.behind_per_m > floor_per_m ? kAnything : kStanding;
+      becomes_wall[v][i] = off <= 0.0F ? if_on_wall : 0;
+    }
+  }
+  for (std::size_t v = 0; v < rows; ++v) {
+    for (std::size_t i = 0; i < kCell_px; ++i) {
+      change[v][i] = static_cast<std::uint8_t>(becomes_wall[v][i]);
+    }
+  }
+  for (std::size_t v = 0; v < rows; ++v) {
+    for (std::size_t i = 0; i < kCell_px; ++i) {
+      const std::uint8_t label = labels[v * width + i];
+      std::uint8_t is_meant = label == kObstacle ? kStanding : 0;
+      is_meant = label == kAccessible ? kFoot : is_meant;
+      labels[v * width + i] = (change[v][i] & is_meant) != 0 ? std::uint8_t{kWall} : label;
     }
   }
 }
