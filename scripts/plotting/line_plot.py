@@ -1,7 +1,6 @@
 """Line plots as SVG, with nothing but text."""
 import dataclasses
 import math
-import pathlib
 from xml.sax.saxutils import escape
 
 COLORS = ["#0b61a4", "#d1495b", "#2e8540", "#b36b00", "#6b4fa1", "#3a3a3a"]
@@ -90,10 +89,3 @@ def line_plot(title, x_axis, y_axis, series):
                      f' y2="{legend_y}" stroke="{color}" stroke-width="3"/>')
         parts.append(_text(WIDTH - RIGHT + 48, legend_y + 4, name, "start"))
     return "\n".join([*parts, "</svg>\n"])
-
-
-def save_line_plot(path, *plot):
-    path = pathlib.Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(line_plot(*plot))
-    print(f"plot: {path}")
