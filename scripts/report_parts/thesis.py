@@ -23,7 +23,7 @@ CHAPTER = (
          "A pixel is a landmark where the depth's slope changes by more than a threshold. Of ten "
          "frames, counted by eye: 145, 77 and 37 landmarks at thresholds of 0, 100 and 1000, of "
          "which 62, 70 and 84 % were good. A higher threshold gives fewer and better ones.",
-         ("landmark_pictures", "landmark_thresholds")),
+         ("threshold_pictures", "landmark_thresholds")),
     Part("Figures 5.3, 5.4", "Packed pixels, and whole frames",
          "A depth pixel is 13 bits of millimetres and 3 bits of a player's number. Frames that are "
          "not finished in 1/30 s leak into the next, so the work moved to a thread of its own.",
