@@ -37,8 +37,8 @@ def run(bin_folder):
                    for name, values in (("average of all", [m for m in mean_m if m]),
                                         ("nearest in the corridor", [n for n in near_m if n]))])
     return Result([
-        Figure("The average hardly moves whatever stands ahead; the nearest thing in the swept "
-               "corridor, without the floor, falls as the robot drives up to it. Gaps: nothing "
-               "stands in the corridor.", plot, "average_distance"), table,
-        Note(f"At worst the average said {closer[0]:.2f} m while something stood {closer[1]:.2f} m "
+        Figure("The average mixes the floor, the walls and what stands ahead. The nearest thing in the "
+               "corridor that the robot is about to sweep, without the floor, falls by a metre a "
+               "metre as it drives up, and jumps when it turns away. A gap: nothing stands there.", plot, "average_distance"), table,
+        Note(f"Where they differ most the average said {closer[0]:.2f} m while something stood {closer[1]:.2f} m "
              "ahead.")])

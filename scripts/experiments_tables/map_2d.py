@@ -34,7 +34,7 @@ def frame_plan(row):
     places = [(r * math.cos(b), r * math.sin(b)) for r, b in
               zip(numbers(row, "landmarks.range_m"), numbers(row, "landmarks.bearing_rad"))]
     return plan("One frame from above", [
-        Marks("what the camera sees, 10 to 60 cm up", [(-y, x) for x, y in scan], "#8a949d",
+        Marks("surfaces 10 to 60 cm up", [(-y, x) for x, y in scan], "#8a949d",
               radius_px=1.6),
         Marks("landmarks", [(-y, x) for x, y in places], "#d55e00", radius_px=5.0),
         Marks("robot", [(0.0, 0.0)], "#0072b2", radius_px=7.0)])
@@ -63,7 +63,7 @@ def run(bin_folder):
     blocks += [Figure("A frame of the living room and its landmarks (Figure 5.6, left).",
                       simulated.picture(bin_folder, "landmarks-png", seen, "--frame", str(FRAME)),
                       "frame_view"),
-               Figure("The same frame from above (Figure 5.6, right).",
+               Figure("The same frame from above (Figure 5.6, right); the robot looks up the page.",
                       frame_plan(frame_row(bin_folder, seen)), "frame_plan"),
                bad_landmarks(bin_folder)]
     table = Table("Path and map after one round, RMS after the best alignment, m",

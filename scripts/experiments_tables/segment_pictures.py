@@ -11,8 +11,8 @@ TARGETS = ["rwlog", "segment_svc", "simulator"]
 FRAME = 100
 RECTANGLES = ("accessible,190,165,100,60", "wall,60,5,65,25", "wall,230,5,40,80",
               "obstacle,5,55,42,70", "obstacle,146,48,28,38")
-MODELS = {"gaussian": "thesis: a grey Gaussian a class", "mixture": "a mixture of colours a class",
-          "fused": "ours: depth and colour"}
+MODELS = {"gaussian": "Thesis: a grey Gaussian a class", "mixture": "A mixture of colours a class",
+          "fused": "Ours: depth and colour"}
 FLOOR_IOU_LEAST = 0.95
 
 
@@ -38,7 +38,9 @@ def run(bin_folder):
         score = simulated.scores(bin_folder, out)
         table.rows.append([what, *(score[name] for name in (
             "floor_iou", "floor_precision", "floor_recall", "nonfloor_called_floor"))])
-        pictures.append(Figure(f"{what}.", simulated.picture(
-            bin_folder, "labels-png", out, "--frame", str(FRAME)), f"labels_{model}"))
+        pictures.append(Figure(
+            f"{what}. Green: accessible, red: obstacle, blue: wall, grey: unknown.",
+            simulated.picture(bin_folder, "labels-png", out, "--frame", str(FRAME)),
+            f"labels_{model}"))
     bar = at_least("ours: floor IoU", score["floor_iou"], FLOOR_IOU_LEAST)
     return Result([table, *pictures], [bar])

@@ -2,7 +2,7 @@
 import dataclasses
 from xml.sax.saxutils import escape
 
-WIDTH, LEFT, RIGHT, TOP, BOTTOM = 860, 16, 250, 56, 40
+WIDTH, LEFT, RIGHT, TOP, BOTTOM = 900, 16, 280, 56, 40
 
 
 @dataclasses.dataclass
@@ -38,8 +38,9 @@ def _drawn(layer, place):
         dash = ' stroke-dasharray="6 5"' if layer.dashed else ""
         return [f'<polyline points="{path}" fill="none" stroke="{layer.color}" stroke-width="2"'
                 f"{dash}/>"]
-    return [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{layer.radius_px}" fill="{layer.color}"/>'
-            for x, y in pixels]
+    dots = "".join(f"M{x:.1f} {y:.1f}h0" for x, y in pixels)
+    return [f'<path d="{dots}" fill="none" stroke="{layer.color}" stroke-linecap="round"'
+            f' stroke-width="{2 * layer.radius_px}"/>']
 
 
 def _legend(layers):

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import threading
+import traceback
 
 from report_parts.printed_tables import blocks_of
 from report_parts.results import Bar, Result
@@ -46,8 +47,12 @@ def overheard(chunks):
 def run(module, bin_folder):
     """The module's Result, and whether it has printed itself already."""
     chunks = []
-    with overheard(chunks):
-        result = module.run(bin_folder)
+    try:
+        with overheard(chunks):
+            result = module.run(bin_folder)
+    except Exception as error:  # the others shall be measured all the same
+        traceback.print_exc()
+        return Result(bars=[Bar("the experiment runs to its end", str(error), False)]), False
     if isinstance(result, Result):
         return result, False
     text = b"".join(chunks).decode("utf-8", "replace")
