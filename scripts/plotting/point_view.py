@@ -3,7 +3,7 @@ import math
 
 from plotting.png import png
 
-BACKGROUND = 250
+BACKGROUND = 255
 BRIGHTER = bytes(round(255 * (level / 255) ** 0.65) for level in range(256))
 
 
