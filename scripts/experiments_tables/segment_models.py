@@ -4,19 +4,18 @@ sigma of the training sets (Tables 5.8, 5.9) and their histograms, difference ra
 (Tables 5.5-5.7), other light than taught in and the dark (Figure 5.12), Gaussians with depth (Figures
 5.13, 5.14: "fused"), and a recorded kitchen with masks of its floor where the recording is there.
 
-Rectangles are the largest ones of each class, as a person would drag them. Plots:
-report/segment_histograms.svg, report/segment_light.svg.
+Rectangles are the largest ones of each class, as a person would drag them.
 """
 import csv
 import io
 import os
 import pathlib
 import subprocess
-import sys
+
+from plotting.line_plot import Axis, line_plot
+from report_parts.results import Figure, Result, Table, at_least, at_most
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-from plotting.line_plot import Axis, save_line_plot  # noqa: E402
 
 TITLE = "Segmentation: models, training and light"
 TARGETS = ["segment_models"]
@@ -33,42 +32,38 @@ def rows_of(bin_folder, table):
     return list(csv.DictReader(io.StringIO(out)))
 
 
-def print_table(title, columns, rows):
-    print(title)
-    for line in [columns, *rows]:
-        print("  " + "".join(f"{cell:>{22 if i == 0 else 16}}" for i, cell in enumerate(line)))
-    print()
-
-
 def percent(ratio):
     return f"{100.0 * float(ratio):.2f} %"
 
 
-def print_statistics(rows):
-    print_table("Grey levels of the training sets: mean, sigma by average and by threshold",
-                ["taught on", "class", "average", "threshold", "pixels"],
-                [[r["taught_on"], CLASSES[r["class"]],
-                  f"{r['average_mean']}, {r['average_sigma']}",
-                  f"{r['threshold_mean']}, {r['threshold_sigma']}", r["pixels"]] for r in rows])
+def statistics(rows):
+    return Table("Grey levels of the training sets (Table 5.8)",
+                 ["taught on", "class", "mean", "sigma", "mean, thresholded", "sigma, thresholded",
+                  "pixels"],
+                 [[r["taught_on"], CLASSES[r["class"]], r["average_mean"], r["average_sigma"],
+                   r["threshold_mean"], r["threshold_sigma"], r["pixels"]] for r in rows])
 
 
-def plot_histograms(rows):
+def histograms(rows):
     lines = {}
     for row in rows:
         lines.setdefault(CLASSES[row["class"]], []).append(
             (int(row["level"]), 100.0 * float(row["share"])))
-    save_line_plot(ROOT / "report" / "segment_histograms.svg", "Grey levels of the training sets",
-                   Axis("grey level"), Axis("% of the class's pixels"), lines)
+    plot = line_plot("Grey levels of the training sets", Axis("grey level, 0 to 255"),
+                     Axis("% of the class's pixels"), lines)
+    return Figure("Histograms of the three classes' training sets, five views (Figures 5.10, 5.11)."
+                  " Where they overlap, grey cannot tell them apart.", plot, "segment_histograms")
 
 
-def print_training(rows):
-    print_table("Difference rate in the living room, by what was taught on",
-                ["taught on", "model", "all", "obstacle", "wall", "floor"],
-                [[r["taught_on"],
-                  r["model"] + (" (thr.)" if r["statistics"] == "threshold" else ""),
-                  *(percent(r[c]) for c in ("difference", "difference_obstacle",
-                                            "difference_wall", "difference_floor"))]
-                 for r in rows])
+def training(rows):
+    return Table("Difference rate in the living room, by what was taught on (Tables 5.5 to 5.7, 5.9)",
+                 ["taught on", "model", "all", "obstacle", "wall", "floor"],
+                 [[r["taught_on"],
+                   r["model"] + (", thresholded" if r["statistics"] == "threshold" else ""),
+                   *(percent(r[c]) for c in ("difference", "difference_obstacle",
+                                             "difference_wall", "difference_floor"))]
+                  for r in rows],
+                 note="Share of pixels whose label is not the true one; gaussian is the thesis's.")
 
 
 def by_light(rows, light):
@@ -80,18 +75,18 @@ def by_light(rows, light):
     return lines
 
 
-def print_light(lines):
+def light_tables(lines, where):
     levels = list(next(iter(lines.values())))
     columns = ["room", "model", *(f"{level} % light" for level in levels)]
-    print_table("Floor IoU by light, taught in full light", columns,
-                [[room, model, *(row[level]["floor_iou"] for level in levels)]
-                 for (room, model), row in lines.items()])
-    print_table("Obstacle and wall called floor", columns,
-                [[room, model, *(percent(row[level]["called_floor"]) for level in levels)]
-                 for (room, model), row in lines.items()])
+    return [Table(f"Floor IoU by light, taught in full light, {where}", columns,
+                  [[room, model, *(row[level]["floor_iou"] for level in levels)]
+                   for (room, model), row in lines.items()]),
+            Table(f"Obstacle and wall called floor, {where}", columns,
+                  [[room, model, *(percent(row[level]["called_floor"]) for level in levels)]
+                   for (room, model), row in lines.items()])]
 
 
-def plot_light(lines):
+def light_plot(lines):
     rooms = sorted({room for room, _ in lines})
     # Geometry, and fused untaught, would lie on the line of fused.
     models = [model for model in dict.fromkeys(model for _, model in lines)
@@ -99,35 +94,39 @@ def plot_light(lines):
     means = {model: sorted(
         (level, sum(float(lines[room, model][level]["floor_iou"]) for room in rooms) / len(rooms))
         for level in lines[rooms[0], model]) for model in models}
-    save_line_plot(ROOT / "report" / "segment_light.svg",
-                   "Floor found in other light than taught in (mean of three rooms)",
-                   Axis("lamps, % of the light taught in"), Axis("floor IoU", least=0.0, largest=1.0), means)
+    plot = line_plot("Floor found in other light than taught in (mean of three rooms)",
+                     Axis("lamps, % of the light taught in"),
+                     Axis("floor IoU", least=0.0, largest=1.0), means)
+    return Figure("Other light than taught in (Figure 5.12): colour fails where depth does not.",
+                  plot, "segment_light")
 
 
-def holds(lines, kind):
-    met = True
-    for (room, model), by_level in lines.items():
-        if not model.startswith("fused"):
-            continue
-        ious = [float(row["floor_iou"]) for row in by_level.values()]
-        wrong = max(float(row["called_floor"]) for row in by_level.values())
-        met = met and min(ious) >= FLOOR_IOU_LEAST[kind] and wrong <= CALLED_FLOOR_MOST
-        met = met and max(ious) - min(ious) <= LIGHT_COSTS_MOST
-    return met
+def light_bars(lines, kind):
+    """Of the models that use depth and colour, in all rooms and lights."""
+    fused = {key: by_level for key, by_level in lines.items() if key[1].startswith("fused")}
+    ious = {key: [float(row["floor_iou"]) for row in by_level.values()]
+            for key, by_level in fused.items()}
+    wrong = max(float(row["called_floor"]) for by_level in fused.values()
+                for row in by_level.values())
+    return [at_least(f"{kind}, fused: least floor IoU", min(map(min, ious.values())),
+                     FLOOR_IOU_LEAST[kind]),
+            at_most(f"{kind}, fused: most called floor that is not", wrong, CALLED_FLOOR_MOST, 4),
+            at_most(f"{kind}, fused: floor IoU that other light costs",
+                    max(max(each) - min(each) for each in ious.values()), LIGHT_COSTS_MOST, 4)]
 
 
 def run(bin_folder):
     bin_folder = pathlib.Path(bin_folder)
-    print_statistics(rows_of(bin_folder, "statistics"))
-    plot_histograms(rows_of(bin_folder, "histograms"))
-    print_training(rows_of(bin_folder, "training"))
     simulated = by_light(rows_of(bin_folder, "light"), "lamp_percent")
-    print_light(simulated)
-    plot_light(simulated)
-    met = holds(simulated, "simulated")
+    result = Result([statistics(rows_of(bin_folder, "statistics")),
+                     histograms(rows_of(bin_folder, "histograms")),
+                     training(rows_of(bin_folder, "training")),
+                     *light_tables(simulated, "simulated rooms"), light_plot(simulated)],
+                    light_bars(simulated, "simulated"))
     if not (DATA / "rgbd_7scenes_redkitchen_000_119").exists():
-        print("recorded kitchen: left out, no rgbd_7scenes_redkitchen_000_119 in ROOMWISE_DATA")
-        return met
+        result.left_out = "the recorded kitchen: rgbd_7scenes_redkitchen_000_119 in ROOMWISE_DATA"
+        return result
     recorded = by_light(rows_of(bin_folder, "recorded"), "light_percent")
-    print_light(recorded)
-    return met and holds(recorded, "recorded")
+    result.blocks += light_tables(recorded, "recorded kitchen (7-Scenes)")
+    result.bars += light_bars(recorded, "recorded")
+    return result

@@ -10,6 +10,7 @@ import pathlib
 import tempfile
 
 from recordings import mrclam
+from report_parts.results import Result, Table, at_most, left_out
 
 TITLE = "SLAM: what can be known at the time (MRCLAM set 7)"
 TARGETS = ["ekf_svc", "rwlog"]
@@ -73,14 +74,13 @@ def errors_m(bin_folder, data, robot, folder):
 def run(bin_folder):
     data = mrclam.folder()
     if data is None:
-        return True
-    print(f"{'path m at the same instants':30} {'ekf_svc':>8} {'batch so far':>13} {'ratio':>6}"
-          f" {'in hindsight':>13}")
-    met = True
+        return left_out(mrclam.MISSING)
+    rows, bars = [], []
     for robot in mrclam.ROBOTS:
         with tempfile.TemporaryDirectory() as folder:
             online, causal, whole = errors_m(bin_folder, data, robot, pathlib.Path(folder))
-        print(f"robot {robot}".ljust(30) +
-              f" {online:8.3f} {causal:13.3f} {online / causal:6.2f} {whole:13.3f}")
-        met = met and online <= RATIO_MAX * causal
-    return met
+        rows.append([f"robot {robot}", online, causal, online / causal, whole])
+        bars.append(at_most(f"robot {robot}: ekf_svc / batch so far", online / causal, RATIO_MAX))
+    table = Table("Error of the path at the same instants, m",
+                  ["", "ekf_svc", "batch so far", "ratio", "in hindsight"], rows)
+    return Result([table], bars)

@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 
 from recordings import mrclam
+from report_parts.results import Bar, Result, Table, at_most, left_out
 
 TITLE = "SLAM: MRCLAM set 7, one parameter set"
 TARGETS = ["ekf_svc", "rwlog"]
@@ -47,22 +48,32 @@ def rows_of(bin_folder, folder, data, robot, identities):
     return rows
 
 
+def bars_of(where, rows):
+    bars = []
+    path_m = rows["ekf_svc"][0]
+    if "MRPT" in rows:
+        bars.append(Bar(f"{where}: path better than MRPT's", f"{path_m:.3f} against"
+                        f" {rows['MRPT'][0]:.3f} m", path_m < rows["MRPT"][0]))
+    if "in hindsight" in rows:
+        bars.append(at_most(f"{where}: path / path in hindsight", path_m / rows["in hindsight"][0],
+                            HINDSIGHT_RATIO_MAX, 2))
+    return bars
+
+
 def run(bin_folder):
     data = mrclam.folder()
     if data is None:
-        return True
-    print(f"{'robot, identities, estimate':32} {'path m':>8} {'heading rad':>12} {'map m':>8}"
-          f" {'path m, all':>12} {'heading, all':>13}")
-    met = True
+        return left_out(mrclam.MISSING)
+    table = Table("Errors after the best alignment, RMS, where landmarks were just seen, and of all"
+                  " poses", ["robot", "identities", "estimate", "path m", "heading rad", "map m",
+                             "path m, all", "heading rad, all"], [])
+    bars = []
     with tempfile.TemporaryDirectory() as folder:
         for robot in mrclam.ROBOTS:
             for identities in ("known", "unknown"):
                 rows = rows_of(bin_folder, folder, data, robot, identities)
-                for what, values in rows.items():
-                    print(f"{robot}, {identities}, {what}".ljust(32), "{:8.3f} {:12.4f} {:8.3f}"
-                          " {:12.3f} {:13.4f}".format(*values))
-                if "MRPT" in rows:
-                    met = met and rows["ekf_svc"][0] < rows["MRPT"][0]
-                if "in hindsight" in rows:
-                    met = met and rows["ekf_svc"][0] <= HINDSIGHT_RATIO_MAX * rows["in hindsight"][0]
-    return met
+                table.rows += [[str(robot), identities, what, *values]
+                               for what, values in rows.items()]
+                bars += bars_of(f"robot {robot}, identities {identities}", rows)
+    missing = "" if (bin_folder / "mrpt_slam").exists() else "MRPT is not installed here"
+    return Result([table], bars, missing)

@@ -1,12 +1,13 @@
 """Line plots as SVG, with nothing but text."""
 import dataclasses
 import math
-import pathlib
 from xml.sax.saxutils import escape
 
-COLORS = ["#0b61a4", "#d1495b", "#2e8540", "#b36b00", "#6b4fa1", "#3a3a3a"]
+# Told apart by colour-blind readers too (Okabe and Ito 2008).
+COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#3a3a3a"]
 WIDTH, HEIGHT = 760, 460
 LEFT, RIGHT, TOP, BOTTOM = 78, 200, 56, 58
+DOTS_MOST = 40  # a line of more points is drawn without them
 
 
 @dataclasses.dataclass
@@ -67,15 +68,33 @@ def _grid(x, y, x_axis, y_axis):
     return parts
 
 
+def _unbroken(points):
+    """Pieces between points without a value."""
+    pieces = [[]]
+    for u, v in points:
+        if v is None:
+            pieces.append([])
+        else:
+            pieces[-1].append((u, v))
+    return [piece for piece in pieces if piece]
+
+
 def _line(points, x, y, color):
-    path = " ".join(f"{x(u):.1f},{y(v):.1f}" for u, v in points)
-    dots = [f'<circle cx="{x(u):.1f}" cy="{y(v):.1f}" r="3.5" fill="{color}"/>' for u, v in points]
-    return [f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="2"/>', *dots]
+    parts = []
+    for piece in _unbroken(points):
+        path = " ".join(f"{x(u):.1f},{y(v):.1f}" for u, v in piece)
+        parts.append(f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="2"'
+                     ' stroke-linejoin="round"/>')
+    if len(points) <= DOTS_MOST:
+        parts += [f'<circle cx="{x(u):.1f}" cy="{y(v):.1f}" r="3.5" fill="{color}"/>'
+                  for u, v in points if v is not None]
+    return parts
 
 
 def line_plot(title, x_axis, y_axis, series):
-    """The SVG of {name: [(x, y), ...]}; points of a series are joined in their order."""
-    points = [p for line in series.values() for p in line]
+    """The SVG of {name: [(x, y), ...]}; points of a series are joined in their order, but not over
+    one whose y is None."""
+    points = [p for line in series.values() for p in line if p[1] is not None]
     x = _Scale(x_axis, [u for u, _ in points], LEFT, WIDTH - RIGHT)
     y = _Scale(y_axis, [v for _, v in points], HEIGHT - BOTTOM, TOP)
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}"'
@@ -90,10 +109,3 @@ def line_plot(title, x_axis, y_axis, series):
                      f' y2="{legend_y}" stroke="{color}" stroke-width="3"/>')
         parts.append(_text(WIDTH - RIGHT + 48, legend_y + 4, name, "start"))
     return "\n".join([*parts, "</svg>\n"])
-
-
-def save_line_plot(path, *plot):
-    path = pathlib.Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(line_plot(*plot))
-    print(f"plot: {path}")

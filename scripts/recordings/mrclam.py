@@ -7,16 +7,14 @@ import pathlib
 import subprocess
 
 ROBOTS = (2, 5)
+MISSING = "the recordings are not there: a folder mrclam7 in ROOMWISE_DATA"
 
 
 def folder():
-    """Where the recordings are; None, with a word why, where there are none."""
+    """Where the recordings are; None where there are none."""
     root = pathlib.Path(__file__).resolve().parents[2]
     data = pathlib.Path(os.environ.get("ROOMWISE_DATA", root.parent / "shared" / "data"))
-    if (data / "mrclam7").is_dir():
-        return data / "mrclam7"
-    print(f"skipped: no {data / 'mrclam7'}")
-    return None
+    return data / "mrclam7" if (data / "mrclam7").is_dir() else None
 
 
 def run_quietly(*command):

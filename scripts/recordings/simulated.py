@@ -1,0 +1,72 @@
+"""Simulated drives as logs, each made once while the process lives, and what services make of them."""
+import functools
+import pathlib
+import subprocess
+import tempfile
+
+CAMERA = ("--camera_size", "320x240")
+
+
+def run_quietly(*command):
+    """Runs a program; shows what it said only if it failed."""
+    done = subprocess.run([str(word) for word in command], check=False, capture_output=True,
+                          text=True)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(map(str, command))}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+@functools.cache
+def _folder():
+    return tempfile.TemporaryDirectory(prefix="roomwise-experiments-")
+
+
+def scratch(name):
+    """A path for a file of this process."""
+    return pathlib.Path(_folder().name, name)
+
+
+@functools.cache
+def _count(_key):
+    return len(list(pathlib.Path(_folder().name).iterdir()))
+
+
+def _new_log(*key):
+    return scratch(f"{_count(key)}-{key[0]}.lcmlog")
+
+
+@functools.cache
+def drive(bin_folder, scenario, path="loop1", *options):
+    """A log of one drive: frames, odometry and truth."""
+    log = _new_log("drive", scenario, path, *options)
+    run_quietly(bin_folder / "simulator", "--record", log, "--scenario", scenario, "--path", path,
+                *(options if "--camera_size" in options else (*CAMERA, *options)))
+    return log
+
+
+@functools.cache
+def replayed(bin_folder, service, log, *options):
+    """`log` with what the service makes of it."""
+    out = _new_log(service, log, *options)
+    run_quietly(bin_folder / service, "--replay", log, "--record", out, *options)
+    return out
+
+
+def mapped(bin_folder, scenario, path="loop1", *ekf_options):
+    """A drive with its landmarks, poses and map."""
+    seen = replayed(bin_folder, "landmark_svc", drive(bin_folder, scenario, path))
+    return replayed(bin_folder, "ekf_svc", seen, *ekf_options)
+
+
+def scores(bin_folder, log):
+    """{name: value} of rwlog score."""
+    return {name: float(value) for name, value in
+            (line.split()[:2] for line in
+             run_quietly(bin_folder / "rwlog", "score", log).splitlines())}
+
+
+def picture(bin_folder, kind, log, *options):
+    """The PNG's bytes of `rwlog export KIND`."""
+    out = scratch("picture.png")
+    run_quietly(bin_folder / "rwlog", "export", kind, log, "-o", out, *options)
+    return out.read_bytes()
