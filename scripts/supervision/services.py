@@ -32,6 +32,10 @@ def simulator_arguments(setup):
             "--kinect_door", setup.kinect_door]
 
 
+def kinect_arguments(setup):
+    return ["--resolution", setup.camera] if setup.camera else []
+
+
 def kinect_environment(setup):
     return [f"ROOMWISE_SIM_KINECT={setup.kinect_door}"] if setup.mode == "sim" else []
 
@@ -47,7 +51,7 @@ ALWAYS = ("sim", "robot", "replay")
 SERVICES = (
     Service("simulator", ("sim",), "nothing", simulator_arguments),
     Service("create_driver", LIVE, "a Create on its serial port, or simulator", create_arguments),
-    Service("kinect_pub", LIVE, "a camera, or simulator", environment=kinect_environment),
+    Service("kinect_pub", LIVE, "a camera, or simulator", kinect_arguments, kinect_environment),
     Service("landmark_svc", ALWAYS, "KINECT_FRAME of kinect_pub"),
     Service("segment_svc", ALWAYS, "KINECT_FRAME of kinect_pub"),
     Service("ekf_svc", ALWAYS, "ODOMETRY of create_driver, LANDMARKS of landmark_svc"),
@@ -65,6 +69,7 @@ class Setup:
     create_port: str
     kinect_door: str
     programs: pathlib.Path
+    camera: str = ""  #: WIDTHxHEIGHT; empty: kinect_pub's own choice
 
     def command(self, service):
         words = [str(self.programs / service.name)]

@@ -7,6 +7,7 @@ namespace roomwise::pilot {
 namespace {
 
 constexpr double kPlaceMax_m = 1e5;
+constexpr double kRefusalActs_s = 0.5;
 constexpr Duration kClockBack = std::chrono::seconds(1);  // stamps this much older: a new recording
 
 bool is_place(const Pose2& pose) {
@@ -80,6 +81,7 @@ void Pilot::start_anew() {
   viewed_.reset();
   posed_.reset();
   waits_since_.reset();
+  refused_.reset();
   stuck_.forget();
   recovery_ = Recovery(params_);
   if (report_.state != State::kDone && report_.state != State::kFailed) take_up_behaviour();
@@ -120,6 +122,7 @@ void Pilot::add_refusal(const Eigen::Vector2d& p_robot_m) {
   const bool is_near = p_robot_m.norm() < params_.reach_m;  // false for NaN
   if (track_count_ == 0 || !is_near) return;
   const OdometrySample& last = track_[(track_count_ - 1) % kTrack];
+  refused_ = last.time;
   auto* circle = std::get_if<Circle>(&behaviour_);
   if (circle != nullptr && circle->look_toward(last.T_odom_robot, p_robot_m)) return;
   memory_.refuse(last.time, transform(last.T_odom_robot, p_robot_m));
@@ -177,13 +180,21 @@ Motion Pilot::drive(Time now) {
     return {};
   }
   if (hold_ != Hold::kTouched && !stuck_.is_stuck(now, T_odom_robot, step.motion)) {
-    return step.motion;
+    return is_fresh(now, refused_, kRefusalActs_s) ? turned_first(step) : step.motion;
   }
   // Whatever it believes to stand there did not help: safety_svc knows what must not be entered.
   memory_.forget();
   if (!recovery_.begin(now, T_odom_robot)) end(State::kFailed, Failure::kStuck);
   report_.recoveries = recovery_.count();
   return {};
+}
+
+/// Along an arc it would be refused again: it turns to where it means to go, then drives.
+Motion Pilot::turned_first(const Step& step) {
+  constexpr double kFaces_rad = 0.1;
+  Motion motion = step.motion;
+  if (std::abs(step.bearing_rad) > kFaces_rad) motion.speed_mps = std::min(motion.speed_mps, 0.0);
+  return motion;
 }
 
 Step Pilot::behave(const Surroundings& around) {

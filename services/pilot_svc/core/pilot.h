@@ -79,6 +79,7 @@ class Pilot {
   Motion wait(Time now, Failure why);
   Motion recover(Time now);
   Motion drive(Time now);
+  static Motion turned_first(const Step& step);
   Step behave(const Surroundings& around);
   void end(State state, Failure failure);
   void update_progress(Time now);
@@ -97,6 +98,7 @@ class Pilot {
 
   Goal goal_;
   std::optional<Time> goal_since_;  // when first stepped
+  std::optional<Time> refused_;
   std::optional<Time> waits_since_;
   BehaviourState behaviour_;
   StuckWatch stuck_;

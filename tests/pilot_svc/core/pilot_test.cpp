@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -54,6 +55,22 @@ TEST_F(PilotTest, SilenceStopsItAndItGoesOnAfterwards) {
   EXPECT_EQ(run(0.6, false, true).speed_mps, 0.0);
   EXPECT_STREQ(pilot_.report().waits_for, "waits for ODOMETRY");
   EXPECT_GT(run(0.5).speed_mps, 0.1);
+}
+
+TEST_F(PilotTest, AfterARefusalItTurnsWhereItMeansToGoBeforeItDrives) {
+  pilot_.set_goal({.behaviour = Behaviour::kGoTo, .x_m = 2.0});
+  const auto drive = [&](double for_s) {
+    run(0.05);
+    EXPECT_EQ(pilot_.add_pose(now_, {}, true), InputResult::kUsed);
+    return run(for_s);
+  };
+  ASSERT_GT(drive(0.3).speed_mps, 0.1);
+  pilot_.add_refusal({0.3, -0.2});
+  const Motion motion = drive(0.1);
+  ASSERT_GT(std::abs(pilot_.report().bearing_rad), 0.1);
+  EXPECT_EQ(motion.speed_mps, 0.0);
+  EXPECT_GT(motion.turn_rate_radps * pilot_.report().bearing_rad, 0.0);
+  EXPECT_GT(drive(0.6).speed_mps, 0.05);  // it has not turned, but nobody refuses any more
 }
 
 TEST_F(PilotTest, GoToNeedsAPoseThatIsTracking) {
