@@ -6,7 +6,10 @@ Give it a quiet machine of two cores: about seven minutes a seed.
 """
 import pathlib
 import subprocess
+import sys
 import tempfile
+
+from report_parts.results import Result, Table, at_least, at_most
 
 TITLE = "SLAM: live, apartment, two rounds"
 TARGETS = ["pilot_trial", "rwlog"]
@@ -33,21 +36,27 @@ def drive(bin_folder, seed, log):
     return said.strip().split("\n\n")[-1].splitlines()[0].removeprefix("apartment: ")
 
 
+def bars_of(rows):
+    """Of the worst seed."""
+    path_m, heading_deg, odometry_m = ([row[column] for row in rows] for column in (1, 3, 4))
+    return [at_most("worst path, m", max(path_m), PATH_MOST_m),
+            at_most("worst heading, degrees", max(heading_deg),
+                    round(HEADING_MOST_rad * DEGREES_PER_RAD, 2), 2),
+            at_least("least of odometry alone, m", min(odometry_m), ODOMETRY_LEAST_m)]
+
+
 def run(bin_folder):
-    print(f"{'seed':>4} {'path m':>8} {'aligned m':>10} {'heading deg':>12} {'odometry m':>11}"
-          f" {'landmarks':>10}")
-    met = True
+    table = Table("Errors of position and heading over the whole drive, RMS",
+                  ["seed", "path m", "aligned m", "heading deg", "odometry m", "landmarks",
+                   "what it did"], [])
     with tempfile.TemporaryDirectory() as folder:
         for seed in SEEDS:
             log = pathlib.Path(folder) / f"seed{seed}.lcmlog"
             did = drive(bin_folder, seed, log)
             s = score(bin_folder / "rwlog", log)
-            print(f"{seed:4} {s['ate_raw_m']:8.3f} {s['ate_aligned_m']:10.3f}"
-                  f" {s['heading_rmse_rad'] * DEGREES_PER_RAD:12.2f}"
-                  f" {s['odometry_ate_raw_m']:11.3f} {s.get('landmarks', 0):10.0f}   {did}",
-                  flush=True)
-            met = (met and s["ate_raw_m"] <= PATH_MOST_m
-                   and s["heading_rmse_rad"] <= HEADING_MOST_rad
-                   and s["odometry_ate_raw_m"] > ODOMETRY_LEAST_m)
+            table.rows.append([str(seed), s["ate_raw_m"], s["ate_aligned_m"],
+                               s["heading_rmse_rad"] * DEGREES_PER_RAD, s["odometry_ate_raw_m"],
+                               f"{s.get('landmarks', 0):.0f}", did])
+            print(f"seed {seed}: path {s['ate_raw_m']:.3f} m", file=sys.stderr, flush=True)
             log.unlink()
-    return met
+    return Result([table], bars_of(table.rows))
