@@ -1,12 +1,10 @@
 """The thesis's average distance of all that is in view, beside the near quantile in the corridor the
 robot is about to sweep, along one round of the simulated living room.
 """
-import csv
-import io
 import pathlib
 
 from plotting.line_plot import Axis, line_plot
-from recordings import simulated
+from recordings import messages, simulated
 from report_parts.results import Figure, Note, Result, Table
 
 TITLE = "Average distance, and the nearest thing ahead"
@@ -18,8 +16,7 @@ def run(bin_folder):
     bin_folder = pathlib.Path(bin_folder)
     log = simulated.replayed(bin_folder, "segment_svc",
                              simulated.drive(bin_folder, "living_room"))
-    text = simulated.run_quietly(bin_folder / "rwlog", "csv", log, "SEGMENTS")
-    rows = list(csv.DictReader(io.StringIO(text)))[::EVERY]
+    rows = list(messages.rows_of(bin_folder, log, "SEGMENTS"))[::EVERY]
     begin = int(rows[0]["utime"])
     times_s = [(int(row["utime"]) - begin) * 1e-6 for row in rows]
     mean_m = [float(row["mean_distance_m"]) or None for row in rows]

@@ -1,10 +1,8 @@
 """Depths of one simulated frame as a histogram, and the range threshold landmark_svc takes from it."""
-import csv
-import io
 import pathlib
 
 from plotting.line_plot import Axis, line_plot
-from recordings import point_file, simulated
+from recordings import messages, point_file, simulated
 from report_parts.results import Figure, Result, Table
 
 TITLE = "Histogram of depths, and the threshold taken from it"
@@ -33,9 +31,7 @@ def histogram(values):
 def range_max_m(bin_folder, log):
     """What landmark_svc derives from this frame's histogram."""
     seen = simulated.replayed(bin_folder, "landmark_svc", log, "--range_is_automatic", "true")
-    text = simulated.run_quietly(bin_folder / "rwlog", "csv", seen, "LANDMARKS")
-    return next(float(row["range_max_m"]) for row in csv.DictReader(io.StringIO(text))
-                if int(row["frame_seq"]) == FRAME + 1)
+    return float(messages.landmarks_of_frame(bin_folder, seen, FRAME)["range_max_m"])
 
 
 def run(bin_folder):

@@ -1,13 +1,11 @@
 """From one frame's landmarks to the map of a room: a frame from above, how many landmarks are bad
 by method, and the map after one round beside the truth.
 """
-import csv
-import io
 import math
 import pathlib
 
 from plotting.plan import Marks, plan
-from recordings import simulated
+from recordings import messages, simulated
 from report_parts.results import Bar, Figure, Result, Table, at_most
 
 TITLE = "One frame from above, and the map of a round"
@@ -16,12 +14,6 @@ FRAME = 100
 SCENARIOS = ("living_room", "apartment")
 METHODS = {"thesis, threshold 100": ("--method", "thesis"), "ours": ("--method", "disparity")}
 PATH_MOST_M = 0.05
-
-
-def frame_row(bin_folder, log):
-    text = simulated.run_quietly(bin_folder / "rwlog", "csv", log, "LANDMARKS")
-    return next(row for row in csv.DictReader(io.StringIO(text))
-                if int(row["frame_seq"]) == FRAME + 1)
 
 
 def numbers(row, name):
@@ -64,7 +56,7 @@ def run(bin_folder):
                       simulated.picture(bin_folder, "landmarks-png", seen, "--frame", str(FRAME)),
                       "frame_view"),
                Figure("The same frame from above (Figure 5.6, right); the robot looks up the page.",
-                      frame_plan(frame_row(bin_folder, seen)), "frame_plan"),
+                      frame_plan(messages.landmarks_of_frame(bin_folder, seen, FRAME)), "frame_plan"),
                bad_landmarks(bin_folder)]
     table = Table("Path and map after one round, RMS after the best alignment, m",
                   ["scenario", "path", "odometry alone", "map", "landmarks in the map"], [])

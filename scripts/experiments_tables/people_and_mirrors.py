@@ -80,8 +80,8 @@ def crowd_plan(groups):
     def points(name):
         return [(each.x_m, each.y_m) for each in groups[name]]
     return plan("Landmarks in the crowd, one minute of driving", [
-        Marks("kept", points("kept"), "#9aa4ad", radius_px=2.0),
-        Marks("removed, no person near", points("removed"), "#e3b23c", radius_px=2.0),
+        Marks("removed, no person near", points("removed"), "#e3b23c", radius_px=3.5),
+        Marks("kept", points("kept"), "#3a3a3a", radius_px=1.5),
         Marks("removed, on a person", points("removed, on a person"), "#0b61a4", radius_px=2.0),
         Marks("kept, on a person", points("kept, on a person"), "#b3132b", radius_px=5.0)])
 

@@ -4,6 +4,7 @@ fused, all taught on the same rectangles of that frame.
 import pathlib
 
 from recordings import simulated
+from recordings.programs import run_quietly
 from report_parts.results import Figure, Result, Table, at_least
 
 TITLE = "One frame, labelled by grey, by colour, and with depth"
@@ -19,7 +20,7 @@ FLOOR_IOU_LEAST = 0.95
 def taught(bin_folder, log):
     model = simulated.scratch("model.toml")
     rectangles = [word for each in RECTANGLES for word in ("--rect", each)]
-    simulated.run_quietly(bin_folder / "rwlog", "train", log, *rectangles, "--frame", str(FRAME),
+    run_quietly(bin_folder / "rwlog", "train", log, *rectangles, "--frame", str(FRAME),
                           "-o", model)
     return model
 

@@ -10,6 +10,7 @@ import pathlib
 import tempfile
 
 from recordings import mrclam
+from recordings.programs import run_quietly
 from report_parts.results import Result, Table, at_most, left_out
 
 TITLE = "SLAM: what can be known at the time (MRCLAM set 7)"
@@ -22,7 +23,7 @@ class Path:
     """Positions over time, as complex numbers."""
 
     def __init__(self, rwlog, log, text, channel="POSE"):
-        mrclam.run_quietly(rwlog, "export", "trajectory", log, "-o", text, "--channel", channel)
+        run_quietly(rwlog, "export", "trajectory", log, "-o", text, "--channel", channel)
         with open(text, encoding="utf-8") as lines:
             rows = [line.split() for line in lines if not line.startswith("#")]
         self.times_s = [float(row[0]) for row in rows]
@@ -48,8 +49,8 @@ def causal_points(rwlog, out, folder):
     times_s, points_m = [], []
     beginning, best = folder / "beginning", folder / "best"
     for until_s in range(FIRST_S, LAST_S + 1, STEP_S):
-        mrclam.run_quietly(rwlog, "cut", out, "-o", beginning, "--to", str(until_s))
-        mrclam.run_quietly(rwlog, "smooth", beginning, "-o", best)
+        run_quietly(rwlog, "cut", out, "-o", beginning, "--to", str(until_s))
+        run_quietly(rwlog, "smooth", beginning, "-o", best)
         path = Path(rwlog, best, folder / "path")
         times_s.append(path.times_s[-1])
         points_m.append(path.points_m[-1])
@@ -64,7 +65,7 @@ def errors_m(bin_folder, data, robot, folder):
     times_s, causal_m = causal_points(rwlog, out, folder)
     truth = Path(rwlog, out, folder / "path", "TRUTH")
     online = Path(rwlog, out, folder / "path")
-    mrclam.run_quietly(rwlog, "smooth", out, "-o", best)
+    run_quietly(rwlog, "smooth", out, "-o", best)
     whole = Path(rwlog, best, folder / "path")
     truth_m = [truth.at(t) for t in times_s]
     return [aligned_rms_m(points, truth_m) for points in

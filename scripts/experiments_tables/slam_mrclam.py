@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 
 from recordings import mrclam
+from recordings.programs import run_quietly
 from report_parts.results import Bar, Result, Table, at_most, left_out
 
 TITLE = "SLAM: MRCLAM set 7, one parameter set"
@@ -30,7 +31,7 @@ def best_of_mrpt(bin_folder, log, out):
     """Scores of MRPT with the settings that bring the best trajectory."""
     scores = []
     for range_m, bearing_rad in MRPT_SETTINGS:
-        mrclam.run_quietly(bin_folder / "mrpt_slam", "--replay", log, "--record", out,
+        run_quietly(bin_folder / "mrpt_slam", "--replay", log, "--record", out,
                            "--range_sigma_m", range_m, "--bearing_sigma_rad", bearing_rad)
         scores.append(score(bin_folder / "rwlog", out))
     return min(scores)
@@ -41,7 +42,7 @@ def rows_of(bin_folder, folder, data, robot, identities):
     mrclam.mapped_run(bin_folder, data, robot, log, out, identities == "unknown")
     rows = {"ekf_svc": score(bin_folder / "rwlog", out)}
     if identities == "known":
-        mrclam.run_quietly(bin_folder / "rwlog", "smooth", out, "-o", best)
+        run_quietly(bin_folder / "rwlog", "smooth", out, "-o", best)
         rows["in hindsight"] = score(bin_folder / "rwlog", best)
     if (bin_folder / "mrpt_slam").exists():
         rows["MRPT"] = best_of_mrpt(bin_folder, log, out)

@@ -1,11 +1,9 @@
 """One frame of the simulated living room with what the thesis's method marks at its three
 thresholds, and what ours does: edge pixels, and the landmarks made of them.
 """
-import csv
-import io
 import pathlib
 
-from recordings import simulated
+from recordings import messages, simulated
 from report_parts.results import Figure, Result, Table
 
 TITLE = "One frame, three thresholds, and ours"
@@ -19,9 +17,7 @@ METHODS = {"Thesis, threshold 0": ("--method", "thesis", "--threshold_mm_per_px"
 
 def counts(bin_folder, log):
     """Edge pixels, how many of them the message lists, and landmarks of the frame."""
-    text = simulated.run_quietly(bin_folder / "rwlog", "csv", log, "LANDMARKS")
-    row = next(row for row in csv.DictReader(io.StringIO(text))
-               if int(row["frame_seq"]) == FRAME + 1)
+    row = messages.landmarks_of_frame(bin_folder, log, FRAME)
     return int(row["edge_count"]), int(row["edge_listed"]), int(row["count"])
 
 

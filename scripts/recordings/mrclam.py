@@ -4,7 +4,8 @@ The recordings are in ROOMWISE_DATA/mrclam7, by default ../shared/data/mrclam7.
 """
 import os
 import pathlib
-import subprocess
+
+from recordings.programs import run_quietly
 
 ROBOTS = (2, 5)
 MISSING = "the recordings are not there: a folder mrclam7 in ROOMWISE_DATA"
@@ -15,10 +16,6 @@ def folder():
     root = pathlib.Path(__file__).resolve().parents[2]
     data = pathlib.Path(os.environ.get("ROOMWISE_DATA", root.parent / "shared" / "data"))
     return data / "mrclam7" if (data / "mrclam7").is_dir() else None
-
-
-def run_quietly(*command):
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def mapped_run(bin_folder, data, robot, log, out, unknown_identities=False):

@@ -2,6 +2,7 @@
 import struct
 
 from recordings import simulated
+from recordings.programs import run_quietly
 
 SIZES = {"float": "f", "double": "d", "uchar": "B", "uint8": "B", "float32": "f"}
 
@@ -20,6 +21,6 @@ def read(path):
 def of_frame(bin_folder, log, frame):
     """The points of one frame in the robot's frame: x ahead, y left, z up [m]."""
     out = simulated.scratch("points.ply")
-    simulated.run_quietly(bin_folder / "rwlog", "export", "ply", log, "-o", out, "--frame",
+    run_quietly(bin_folder / "rwlog", "export", "ply", log, "-o", out, "--frame",
                           str(frame), "--voxel", "0.001")
     return read(out)

@@ -1,19 +1,13 @@
 """Simulated drives as logs, each made once while the process lives, and what services make of them."""
 import functools
+import itertools
 import pathlib
-import subprocess
 import tempfile
 
+from recordings.programs import run_quietly
+
 CAMERA = ("--camera_size", "320x240")
-
-
-def run_quietly(*command):
-    """Runs a program; shows what it said only if it failed."""
-    done = subprocess.run([str(word) for word in command], check=False, capture_output=True,
-                          text=True)
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(map(str, command))}: {done.stdout}{done.stderr}")
-    return done.stdout
+NUMBERS = itertools.count()
 
 
 @functools.cache
@@ -26,19 +20,14 @@ def scratch(name):
     return pathlib.Path(_folder().name, name)
 
 
-@functools.cache
-def _count(_key):
-    return len(list(pathlib.Path(_folder().name).iterdir()))
-
-
-def _new_log(*key):
-    return scratch(f"{_count(key)}-{key[0]}.lcmlog")
+def _new_log(name):
+    return scratch(f"{next(NUMBERS)}-{name}.lcmlog")
 
 
 @functools.cache
 def drive(bin_folder, scenario, path="loop1", *options):
     """A log of one drive: frames, odometry and truth."""
-    log = _new_log("drive", scenario, path, *options)
+    log = _new_log(scenario)
     run_quietly(bin_folder / "simulator", "--record", log, "--scenario", scenario, "--path", path,
                 *(options if "--camera_size" in options else (*CAMERA, *options)))
     return log
@@ -47,7 +36,7 @@ def drive(bin_folder, scenario, path="loop1", *options):
 @functools.cache
 def replayed(bin_folder, service, log, *options):
     """`log` with what the service makes of it."""
-    out = _new_log(service, log, *options)
+    out = _new_log(service)
     run_quietly(bin_folder / service, "--replay", log, "--record", out, *options)
     return out
 

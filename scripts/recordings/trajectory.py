@@ -4,6 +4,7 @@ import cmath
 import math
 
 from recordings import simulated
+from recordings.programs import run_quietly
 
 
 class Trajectory:
@@ -11,7 +12,7 @@ class Trajectory:
 
     def __init__(self, bin_folder, log, channel):
         out = simulated.scratch("trajectory.txt")
-        simulated.run_quietly(bin_folder / "rwlog", "export", "trajectory", log, "-o", out,
+        run_quietly(bin_folder / "rwlog", "export", "trajectory", log, "-o", out,
                               "--channel", channel)
         rows = [[float(word) for word in line.split()]
                 for line in out.read_text(encoding="utf-8").splitlines()

@@ -9,6 +9,10 @@ def _cells(line):
     return re.split(r"\s{2,}", line.strip())
 
 
+def _is_number(cell):
+    return re.fullmatch(r"-?[\d.]+", cell) is not None
+
+
 def _runs(lines):
     """Neighbouring lines of as many cells, together."""
     return [(width, list(group)) for width, group in
@@ -16,7 +20,7 @@ def _runs(lines):
 
 
 def blocks_of(text):
-    """Tables where three or more columns stand under a line of names; the rest as printed."""
+    """Tables where three or more columns stand under a line of names, none a number; the rest as printed."""
     blocks, plain = [], []
 
     def end_plain():
@@ -25,7 +29,7 @@ def blocks_of(text):
         plain.clear()
 
     for width, lines in _runs(text.splitlines()):
-        if width < 3 or len(lines) < 2:
+        if width < 3 or len(lines) < 2 or any(map(_is_number, _cells(lines[0]))):
             plain += lines
             continue
         caption = plain.pop().strip(" :") if plain and plain[-1].strip() else ""

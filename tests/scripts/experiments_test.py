@@ -123,6 +123,10 @@ class PrintedTables(unittest.TestCase):
         self.assertEqual(blocks[0], Table("Errors", ["a", "b", "c"], [["1", "2", "3"]]))
         self.assertEqual(blocks[1].text, "and so on")
 
+    def test_rows_without_names_above_them_stay_as_printed(self):
+        said = "1   2   3\n4   5   6"
+        self.assertEqual([block.text for block in printed_tables.blocks_of(said)], [said])
+
     def test_rows_of_a_program_are_found_by_their_width(self):
         rows = slam_programs.rows_of("name   a   b\nup to 10 %, x   75.0 %   0/1\nelse\n", 3)
         self.assertEqual(rows, [["up to 10 %, x", "75.0", "0/1"]])
