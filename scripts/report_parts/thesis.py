@@ -57,7 +57,10 @@ CHAPTER = (
     Part("Figures 5.16 to 5.20", "EKF-SLAM against dead reckoning, one and two rounds",
          "With the decompiled program of somebody else, its simulated robot and known landmarks: "
          "the map of EKF-SLAM is better than that of odometry alone, its error is smaller, and "
-         "the distance to the true path grows with the way driven.", ("slam_rounds", "slam_live")),
+         "the distance to the true path grows with the way driven.", ("slam_rounds",)),
+    Part("Future work", "Detector and filter together, live",
+         "\"I try to combine the landmark detection and the simple slam, and make a real time slam "
+         "(I have not finished this part)\"", ("slam_live",)),
     Part("Beyond: real robots", "The filter on recorded drives, beside MRPT",
          "Not in the thesis, which had no robot of its own mapping: two robots of the UTIAS MRCLAM "
          "recordings.", ("slam_mrclam", "slam_causal")),
