@@ -18,7 +18,7 @@ class Sighting:
     moving: bool
 
 
-def _rows(bin_folder, log, channel, *options):
+def rows(bin_folder, log, channel, *options):
     text = simulated.run_quietly(bin_folder / "rwlog", "csv", log, channel, *options)
     return csv.DictReader(io.StringIO(text))
 
@@ -27,10 +27,10 @@ class TruePoses:
     """Where the robot is; the simulated world begins with a whole second."""
 
     def __init__(self, bin_folder, log):
-        rows = [(int(row["utime"]), float(row["true_x_m"]), float(row["true_y_m"]),
-                 float(row["true_heading_rad"])) for row in _rows(bin_folder, log, "TRUTH")]
-        self.utimes = [row[0] for row in rows]
-        self.poses = [row[1:] for row in rows]
+        told = [(int(row["utime"]), float(row["true_x_m"]), float(row["true_y_m"]),
+                 float(row["true_heading_rad"])) for row in rows(bin_folder, log, "TRUTH")]
+        self.utimes = [row[0] for row in told]
+        self.poses = [row[1:] for row in told]
         self.began_utime = self.utimes[0] - self.utimes[0] % 1_000_000
 
     def at(self, utime):
@@ -41,7 +41,7 @@ class TruePoses:
 def of_log(bin_folder, log):
     truth = TruePoses(bin_folder, log)
     found = []
-    for row in _rows(bin_folder, log, "LANDMARKS", "--list", "landmarks"):
+    for row in rows(bin_folder, log, "LANDMARKS", "--list", "landmarks"):
         x_m, y_m, heading_rad = truth.at(int(row["utime"]))
         range_m, bearing_rad = float(row["range_m"]), heading_rad + float(row["bearing_rad"])
         found.append(Sighting((int(row["utime"]) - truth.began_utime) * 1e-6,
