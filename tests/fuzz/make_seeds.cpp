@@ -276,10 +276,35 @@ void map_seeds(Corpus corpus) {
   }
 }
 
+/// Which channel, length and bytes, as fuzz_landmark_service reads them.
+template <class Message>
+void append(std::uint8_t channel, const Message& message, Bytes& run) {
+  Bytes bytes;
+  encode(message, bytes);
+  run.insert(run.end(), {channel, static_cast<std::uint8_t>(bytes.size()),
+                         static_cast<std::uint8_t>(bytes.size() >> 8)});
+  run.insert(run.end(), bytes.begin(), bytes.end());
+}
+
+void landmark_seeds(Corpus corpus) {
+  Bytes run;
+  for (int step = 1; step <= 3; ++step) {
+    odometry_t odometry{};
+    odometry.utime = 100'000 * step;
+    odometry.interval_us = 100'000;
+    append(1, odometry, run);
+    kinect_frame_t frame = frame_message(kinect_frame_t::DEPTH_PDZ16, kinect_frame_t::COLOR_RGB8);
+    frame.utime = odometry.utime;
+    append(0, frame, run);
+    corpus.add(run);
+  }
+}
+
 void make_seeds(const std::filesystem::path& folder) {
   depth_codec_seeds(Corpus(folder / "fuzz_depth_codec"));
   frame_seeds(Corpus(folder / "fuzz_frame_decoder"));
   wire_seeds(Corpus(folder / "fuzz_wire"), AllMessages{});
+  landmark_seeds(Corpus(folder / "fuzz_landmark_service"));
   params_seeds(Corpus(folder / "fuzz_params"));
   serial_seeds(Corpus(folder / "fuzz_oi_decoder"));
   create_seeds(Corpus(folder / "fuzz_create_emulator"));
