@@ -15,7 +15,6 @@ constexpr double kLeanGain_radpm = 5.0;
 constexpr double kLeanMax_rad = 0.8;
 constexpr double kAhead_rad = 0.5;  // either side: what counts as ahead
 constexpr double kOnCourse_rad = 0.2;
-constexpr double kInView_rad = 0.4;
 constexpr double kFirm_ratio = 1.5;     // of the turn gain, and ...
 constexpr double kCareful_ratio = 0.6;  // of the speed: the band is narrow
 constexpr double kLost_m = 1.0;         // farther than wanted: no longer round it
@@ -84,9 +83,7 @@ Step Circle::run_around(const Surroundings& around) {
   const double bearing_rad =
       wrap_angle(std::atan2(object_m->y(), object_m->x()) - sense_ * (kQuarter_rad - lean_rad));
   const bool is_on_course = std::abs(bearing_rad) < kOnCourse_rad;
-  if (is_on_course && look_is_due(around)) {
-    begin_look(around.T_odom_robot, sense_ * params_.look_turn_rad);
-  }
+  if (is_on_course && look_is_due(around)) begin_look(around);
   const double tight_m = params_.robot_radius_m + params_.margin_tight_m;
   const double way_m = swept_way_m(around.obstacles_robot_m, 0.0, tight_m, params_.reach_m);
   Motion motion = steer(bearing_rad, way_m, kCareful_ratio * speed_mps_, params_);
@@ -109,18 +106,10 @@ bool Circle::look_is_due(const Surroundings& around) const {
          std::abs(since.heading_rad) > params_.look_every_rad;
 }
 
-bool Circle::look_toward(const Pose2& T_odom_robot, const Eigen::Vector2d& p_robot_m) {
-  if (phase_ == Phase::kLook) return true;
-  const double bearing_rad = std::atan2(p_robot_m.y(), p_robot_m.x());
-  if (phase_ != Phase::kAround || std::abs(bearing_rad) < kInView_rad) return false;
-  begin_look(T_odom_robot, std::clamp(bearing_rad, -kQuarter_rad, kQuarter_rad));
-  return true;
-}
-
-void Circle::begin_look(const Pose2& T_odom_robot, double turn_rad) {
+void Circle::begin_look(const Surroundings& around) {
   phase_ = Phase::kLook;
-  looked_from_ = T_odom_robot;
-  look_heading_rad_ = wrap_angle(T_odom_robot.heading_rad + turn_rad);
+  looked_from_ = around.T_odom_robot;
+  look_heading_rad_ = wrap_angle(around.T_odom_robot.heading_rad + sense_ * params_.look_turn_rad);
   looks_since_.reset();
 }
 

@@ -19,9 +19,6 @@ class Circle {
   Circle(const Goal& goal, const PilotParams& params);
 
   Step step(const Surroundings& around);
-  /// safety_svc does not let it go there: it looks there before it goes on. False if that is in
-  /// view anyway, or it has not begun its round.
-  bool look_toward(const Pose2& T_odom_robot, const Eigen::Vector2d& p_robot_m);
 
   double turned_rad() const { return turned_rad_; }
   double object_distance_m() const { return object_distance_m_; }
@@ -34,7 +31,7 @@ class Circle {
   Step approach(const Surroundings& around);
   Step run_around(const Surroundings& around);
   Step look(const Surroundings& around);
-  void begin_look(const Pose2& T_odom_robot, double turn_rad);
+  void begin_look(const Surroundings& around);
   bool look_is_due(const Surroundings& around) const;
   void count_turn(const Surroundings& around);
   double wanted_m(const Surroundings& around, double object_m) const;

@@ -29,7 +29,7 @@ const char* name_of(Failure missing_input) {
 }  // namespace
 
 Pilot::Pilot(const PilotParams& params)
-    : params_(params), memory_(params), stuck_(params), recovery_(params) {
+    : params_(params), memory_(params), stuck_(params), recovery_(params), glance_(params) {
   obstacles_robot_m_.reserve(ObstacleMemory::capacity());
 }
 
@@ -82,6 +82,7 @@ void Pilot::start_anew() {
   posed_.reset();
   waits_since_.reset();
   refused_.reset();
+  glance_.forget();
   stuck_.forget();
   recovery_ = Recovery(params_);
   if (report_.state != State::kDone && report_.state != State::kFailed) take_up_behaviour();
@@ -123,8 +124,7 @@ void Pilot::add_refusal(const Eigen::Vector2d& p_robot_m) {
   if (track_count_ == 0 || !is_near) return;
   const OdometrySample& last = track_[(track_count_ - 1) % kTrack];
   refused_ = last.time;
-  auto* circle = std::get_if<Circle>(&behaviour_);
-  if (circle != nullptr && circle->look_toward(last.T_odom_robot, p_robot_m)) return;
+  if (glance_.is_on() || glance_.begin(last.time, last.T_odom_robot, p_robot_m)) return;
   memory_.refuse(last.time, transform(last.T_odom_robot, p_robot_m));
 }
 
@@ -148,6 +148,7 @@ Motion Pilot::tick(Time now) {
     return {};
   }
   if (recovery_.is_on()) return recover(now);
+  if (glance_.is_on()) return glance_.step(now, odometry_at(now)->T_odom_robot);
   return drive(now);
 }
 

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "services/pilot_svc/core/circle.h"
+#include "services/pilot_svc/core/glance.h"
 #include "services/pilot_svc/core/go_to.h"
 #include "services/pilot_svc/core/recovery.h"
 #include "services/pilot_svc/core/wander.h"
@@ -62,7 +63,7 @@ class Pilot {
   [[nodiscard]] InputResult add_pose(Time time, const Pose2& T_map_robot, bool is_tracking);
   void set_hold(Hold hold) { hold_ = hold; }
   /// safety_svc does not let it go there (robot frame of now): ways through that place are not
-  /// taken for a while, or a circle looks there first.
+  /// taken for a while, or it looks there first.
   void add_refusal(const Eigen::Vector2d& p_robot_m);
 
   Motion tick(Time now);
@@ -103,6 +104,7 @@ class Pilot {
   BehaviourState behaviour_;
   StuckWatch stuck_;
   Recovery recovery_;
+  Glance glance_;
   Report report_;
 };
 

@@ -65,7 +65,7 @@ TEST_F(PilotTest, AfterARefusalItTurnsWhereItMeansToGoBeforeItDrives) {
     return run(for_s);
   };
   ASSERT_GT(drive(0.3).speed_mps, 0.1);
-  pilot_.add_refusal({0.3, -0.2});
+  pilot_.add_refusal({0.4, -0.15});
   const Motion motion = drive(0.1);
   ASSERT_GT(std::abs(pilot_.report().bearing_rad), 0.1);
   EXPECT_EQ(motion.speed_mps, 0.0);

@@ -1,0 +1,45 @@
+#include "services/pilot_svc/core/glance.h"
+
+#include <cmath>
+
+namespace roomwise::pilot {
+namespace {
+
+constexpr double kInView_rad = 0.4;
+constexpr double kFaces_rad = 0.1;
+constexpr double kSamePlace_m = 0.15;
+constexpr double kTurn_s = 6.0;  // safety_svc may not let it
+
+}  // namespace
+
+void Glance::forget() {
+  is_on_ = false;
+  looked_at_odom_m_.reset();
+}
+
+bool Glance::was_looked_at(Time now, const Eigen::Vector2d& p_odom_m) const {
+  return looked_at_odom_m_ && seconds(now - began_) < params_.refusal_memory_s &&
+         (p_odom_m - *looked_at_odom_m_).norm() < kSamePlace_m;
+}
+
+bool Glance::begin(Time now, const Pose2& T_odom_robot, const Eigen::Vector2d& p_robot_m) {
+  const double bearing_rad = std::atan2(p_robot_m.y(), p_robot_m.x());
+  const Eigen::Vector2d p_odom_m = transform(T_odom_robot, p_robot_m);
+  if (std::abs(bearing_rad) < kInView_rad || was_looked_at(now, p_odom_m)) return false;
+  is_on_ = true;
+  began_ = now;
+  heading_rad_ = wrap_angle(T_odom_robot.heading_rad + bearing_rad);
+  faces_since_.reset();
+  looked_at_odom_m_ = p_odom_m;
+  return true;
+}
+
+Motion Glance::step(Time now, const Pose2& T_odom_robot) {
+  const double off_rad = wrap_angle(heading_rad_ - T_odom_robot.heading_rad);
+  if (!faces_since_ && std::abs(off_rad) < kFaces_rad) faces_since_ = now;
+  const bool has_seen = faces_since_ && seconds(now - *faces_since_) >= params_.look_s;
+  if (has_seen || seconds(now - began_) > kTurn_s) is_on_ = false;
+  return steer(off_rad, 0.0, 0.0, params_);
+}
+
+}  // namespace roomwise::pilot
