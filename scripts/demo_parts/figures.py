@@ -5,6 +5,7 @@ import math
 import subprocess
 
 from demo_parts.log_events import events
+from demo_parts.replayed import ANSWERS, same_ratio
 
 PATH_MOST_m = 0.05
 HEADING_MOST_rad = math.radians(2)
@@ -13,6 +14,7 @@ LANDMARKS_LEAST = 10
 CONTACT_mps = 0.1
 FRAMES_LOST_MOST_ratio = 0.01
 LATENCY_MOST_ms = 50.0
+REPLAYED_LEAST_ratio = 0.99  # a frame the live service had no time for leaves its mark
 
 
 @dataclasses.dataclass
@@ -55,10 +57,10 @@ def driven(truth):
     return way_m, contacts
 
 
-def frames_lost_ratio(frames):
+def frames_lost_ratio(log):
     """By their sequence numbers, on their way to the logger."""
-    first, last = frames[0].seq, frames[-1].seq
-    return 1.0 - len(frames) / (last - first + 1)
+    numbers = [event.seq for event in events(log, ("KINECT_FRAME",))]
+    return 1.0 - len(numbers) / (numbers[-1] - numbers[0] + 1)
 
 
 def command_latencies_ms(log):
@@ -87,13 +89,13 @@ def cpu_ratios(rwlog, log):
     return {name: sum(values) / len(values) for name, values in sorted(shares.items())}
 
 
-def of_log(rwlog, log):
+def of_log(bin_folder, log):
+    rwlog = bin_folder / "rwlog"
     truth = rows(rwlog, log, "TRUTH")
     duration_s = 1e-6 * (int(truth[-1]["utime"]) - int(truth[0]["utime"]))
     way_m, contacts = driven(truth)
     score = scores(rwlog, log)
     latencies_ms = command_latencies_ms(log)
-    frames = list(events(log, ("KINECT_FRAME",)))
     found = [
         Figure("driven", way_m, "m", least=DRIVEN_LEAST_mps * duration_s),
         Figure("landmarks in the map", score["landmarks"], least=LANDMARKS_LEAST),
@@ -102,11 +104,13 @@ def of_log(rwlog, log):
         Figure("heading, RMSE", score["heading_rmse_rad"], "rad", most=HEADING_MOST_rad),
         Figure("loops closed", closures(rwlog, log)),
         Figure("contacts faster than 0.1 m/s", contacts, most=0),
-        Figure("frames lost", 100.0 * frames_lost_ratio(frames), "%",
+        Figure("frames lost", 100.0 * frames_lost_ratio(log), "%",
                most=100.0 * FRAMES_LOST_MOST_ratio),
         Figure("exposure to command, median", latencies_ms[len(latencies_ms) // 2], "ms"),
         Figure("exposure to command, 99 %", latencies_ms[99 * len(latencies_ms) // 100], "ms",
                most=LATENCY_MOST_ms),
     ]
+    found += [Figure(f"{name} says the same replayed", 100.0 * same_ratio(bin_folder, log, name),
+                     "%", least=100.0 * REPLAYED_LEAST_ratio) for name in ANSWERS]
     return found + [Figure(f"core used by {name}", 100.0 * ratio, "%")
                     for name, ratio in cpu_ratios(rwlog, log).items()]

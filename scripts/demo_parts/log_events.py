@@ -1,4 +1,4 @@
-"""Events of an LCM log: when the logger heard them, and the stamp every message begins with."""
+"""What an LCM log holds: messages, when the logger heard them, and the stamp each begins with."""
 import dataclasses
 import struct
 
@@ -7,6 +7,7 @@ HEADER = struct.Struct(">IQQII")
 SYNC = 0xEDA1DA01
 #: Fingerprint, utime, seq: how every message of this project begins.
 BEGINNING = struct.Struct(">8xqq")
+SEQ = slice(16, 24)
 
 
 @dataclasses.dataclass
@@ -17,8 +18,9 @@ class Event:
     seq: int
 
 
-def events(log, channels):
-    """Those on these channels, in the log's order; the log is not held in memory."""
+def messages(log, channels):
+    """(channel, heard_us, bytes) of these channels, in the log's order; a cut off end is left out.
+    Raises ValueError where there is no event."""
     wanted = {name.encode(): name for name in channels}
     with open(log, "rb") as file:
         while len(header := file.read(HEADER.size)) == HEADER.size:
@@ -30,7 +32,15 @@ def events(log, channels):
                 file.seek(size, 1)
                 continue
             data = file.read(size)
-            if len(data) < BEGINNING.size:
-                return  # cut off
-            utime, seq = BEGINNING.unpack_from(data)
-            yield Event(wanted[name], heard_us, utime, seq)
+            if len(data) == size >= BEGINNING.size:
+                yield wanted[name], heard_us, data
+
+
+def events(log, channels):
+    for channel, heard_us, data in messages(log, channels):
+        yield Event(channel, heard_us, *BEGINNING.unpack_from(data))
+
+
+def contents(log, channel):
+    """Messages without their numbers, which count from the start of who sent them."""
+    return [data[:SEQ.start] + data[SEQ.stop:] for _, _, data in messages(log, (channel,))]

@@ -21,9 +21,9 @@ def verdict(figure):
 
 
 def table(figures):
-    lines = [f"{'':32} {'':>9}      {'bar':16}"]
+    lines = [f"{'':34} {'':>9}      {'bar':16}"]
     for figure in figures:
-        lines.append(f"{figure.name:32} {number(figure.value):>9} {figure.unit:4} {bar(figure):16}"
+        lines.append(f"{figure.name:34} {number(figure.value):>9} {figure.unit:4} {bar(figure):16}"
                      f" {verdict(figure)}".rstrip())
     return "\n".join(lines)
 
