@@ -2,8 +2,8 @@
 import json
 import subprocess
 
-PICTURES = (("map-png", "map.png"), ("landmarks-png", "landmarks.png"),
-            ("labels-png", "labels.png"), ("trajectory", "path.txt"))
+PICTURES = (("landmarks-png", "landmarks.png"), ("labels-png", "labels.png"),
+            ("trajectory", "path.txt"))
 
 
 def number(value):
@@ -35,7 +35,10 @@ def write(figures, path):
                                indent=1) + "\n")
 
 
-def draw(rwlog, log, out):
-    for what, name in PICTURES:
-        subprocess.run([rwlog, "export", what, log, "-o", out / name], check=True,
+def draw(rwlog, log, out, title):
+    def export(what, name, *options):
+        subprocess.run([rwlog, "export", what, log, "-o", out / name, *options], check=True,
                        stdout=subprocess.DEVNULL)
+    export("map-png", "map.png", "--title", title)
+    for what, name in PICTURES:
+        export(what, name)
