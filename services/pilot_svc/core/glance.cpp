@@ -8,7 +8,7 @@ namespace {
 constexpr double kInView_rad = 0.4;
 constexpr double kFaces_rad = 0.1;
 constexpr double kSamePlace_m = 0.15;
-constexpr double kTurn_s = 6.0;  // safety_svc may not let it
+constexpr double kGlance_s = 6.0;  // safety_svc may not let it
 
 }  // namespace
 
@@ -38,7 +38,7 @@ Motion Glance::step(Time now, const Pose2& T_odom_robot) {
   const double off_rad = wrap_angle(heading_rad_ - T_odom_robot.heading_rad);
   if (!faces_since_ && std::abs(off_rad) < kFaces_rad) faces_since_ = now;
   const bool has_seen = faces_since_ && seconds(now - *faces_since_) >= params_.look_s;
-  if (has_seen || seconds(now - began_) > kTurn_s) is_on_ = false;
+  if (has_seen || seconds(now - began_) > kGlance_s) is_on_ = false;
   return steer(off_rad, 0.0, 0.0, params_);
 }
 
