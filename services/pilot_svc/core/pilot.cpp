@@ -192,9 +192,9 @@ Motion Pilot::drive(Time now) {
 
 /// Along an arc it would be refused again: it turns to where it means to go, then drives.
 Motion Pilot::turned_first(const Step& step) {
-  constexpr double kFaces_rad = 0.1;
+  constexpr double kTurned_rad = 0.1;
   Motion motion = step.motion;
-  if (std::abs(step.bearing_rad) > kFaces_rad) motion.speed_mps = std::min(motion.speed_mps, 0.0);
+  if (std::abs(step.bearing_rad) > kTurned_rad) motion.speed_mps = std::min(motion.speed_mps, 0.0);
   return motion;
 }
 
