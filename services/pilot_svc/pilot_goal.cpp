@@ -57,7 +57,9 @@ class GoalGiver {
     }
     is_taken_ = true;
     if (state.state == pilot_state_t::STATE_FAILED) return end("failed: " + state.explanation);
-    if (!until_done_ || state.state == pilot_state_t::STATE_DONE) end("");
+    const bool is_done =
+        state.state == pilot_state_t::STATE_DONE || state.state == pilot_state_t::STATE_IDLE;
+    if (!until_done_ || is_done) end("");
   }
 
   void end(const std::string& trouble) {
