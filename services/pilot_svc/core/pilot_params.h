@@ -34,7 +34,7 @@ struct PilotParams {
   double look_s = 0.25;         ///< and stays so long
 
   double reached_m = 0.10;     ///< go_to: near enough
-  double no_nearer_s = 30.0;   ///< go_to: no nearer for that long is NO_WAY
+  double no_nearer_s = 60.0;   ///< go_to: no nearer for that long is NO_WAY
   double stuck_after_s = 4.0;  ///< asked to move, but did not
   double back_off_m = 0.12;
   int recoveries_max = 6;  ///< without getting a metre away from where they began
