@@ -13,6 +13,13 @@ namespace {
 /// Column of the edge line itself: the outer border of the near pixel.
 double edge_column_px(const EdgePixel& edge) { return edge.u_px - 0.5 * edge.inward_px(); }
 
+/// How far, at 640 px, matching by windows misplaces a border row by row: readings so near to it
+/// may be of that many pixels beside their own.
+constexpr double kMisplaced_px = 2.0;
+
+/// Where the edge line is, in pixels from the near pixel inwards.
+constexpr double kBorder_px = -0.5;
+
 /// First pixel of the near surface to use: the near pixel itself, often a mixture of both
 /// surfaces, serves only where there is no other.
 int first_inside_px(const EdgePixel& edge) { return edge.near_run_px > 1 ? 1 : 0; }
@@ -42,6 +49,14 @@ ChromaSignature near_color(const ColorAtDepth& color_at_depth, const ColorWeight
     }
   }
   return color.signature();
+}
+
+/// Whether readings misplaced by that much explain how the first pixel differs from the line.
+bool goes_on_to_border(double first_parts, const LineFit& line, double misplaced_px) {
+  constexpr double kNoise_parts = 0.5 * DisparityTable::kPartsPerQuantum;
+  const double too_flat_parts = std::copysign(1.0, line.slope()) * (first_parts - line.at(1.0));
+  return too_flat_parts >= -kNoise_parts &&
+         too_flat_parts <= kNoise_parts + misplaced_px * std::abs(line.slope());
 }
 
 bool all_finite(const Landmark& landmark) {
@@ -204,10 +219,10 @@ std::optional<double> ChainEstimator::place_points(const Scene& scene,
                                                    std::span<const EdgePixel> chain,
                                                    const Middle& middle) {
   gather_near_rows(scene, chain);
-  const int deepest_px = straight_depth_px(chain);
-  SurfacePlane rough = near_plane(chain, middle, deepest_px, nullptr);
+  const Inside inside = inside_of(chain, kMisplaced_px * scene.depth.width_px / 640.0);
+  SurfacePlane rough = near_plane(chain, middle, inside, nullptr);
   if (!rough.solve()) return std::nullopt;
-  SurfacePlane plane = near_plane(chain, middle, deepest_px, &rough);
+  SurfacePlane plane = near_plane(chain, middle, inside, &rough);
   if (!plane.solve()) plane = rough;
 
   const Eigen::Matrix3d rotation = scene.T_robot_camera.linear();
@@ -215,7 +230,7 @@ std::optional<double> ChainEstimator::place_points(const Scene& scene,
   points_.clear();
   for (const EdgePixel& pixel : chain) {
     const double u = edge_column_px(pixel);
-    const double quanta = plane.at(u, pixel.v_px) / DisparityTable::kPartsPerQuantum;
+    const double quanta = plane.at(kBorder_px, pixel.v_px) / DisparityTable::kPartsPerQuantum;
     if (!(quanta > 0.5)) return std::nullopt;
     const Eigen::Vector3d ray_camera((u - scene.camera.cx_px) / scene.camera.fx_px,
                                      (pixel.v_px - scene.camera.cy_px) / scene.camera.fy_px, 1.0);
@@ -239,45 +254,72 @@ void ChainEstimator::gather_near_rows(const Scene& scene, std::span<const EdgePi
   }
 }
 
-/// How deep the near surface is straight, in pixels from the edge: the side of a box seen at a
-/// grazing angle ends after a few, and its front must not bend the fit. One row cannot tell; the
-/// profile averaged over the rows can.
-int ChainEstimator::straight_depth_px(std::span<const EdgePixel> chain) const {
-  constexpr std::size_t kFewest_px = 3;
-  constexpr double kBend_parts = 0.4 * DisparityTable::kPartsPerQuantum;
-  std::array<double, kNearRunMax_px> sum{};  // over rows, relative to the first pixel inside
+/// Disparity of the near surface averaged over the rows, by pixels from the row's edge: one row
+/// cannot tell what is straight.
+ChainEstimator::MeanProfile ChainEstimator::mean_profile(std::span<const EdgePixel> chain) const {
+  MeanProfile profile;
   std::array<double, kNearRunMax_px> rows{};
   for (std::size_t i = 0; i < chain.size(); ++i) {
     for (std::size_t k = 1; k < chain[i].near_run_px; ++k) {
-      sum[k] += near_rows_[i][k] - near_rows_[i][1];
+      profile.parts[k] += near_rows_[i][k] - near_rows_[i][1];
       rows[k] += 1.0;
     }
   }
-  LineFit line;
-  std::size_t k = 1;
-  for (; k < kNearRunMax_px && rows[k] >= 0.5 * static_cast<double>(chain.size()); ++k) {
-    const double mean = sum[k] / rows[k];
-    const double place = static_cast<double>(k);
-    if (k > kFewest_px && std::abs(mean - line.at(place)) > kBend_parts) break;
-    line.add(place, mean);
+  const double rows_min = 0.5 * static_cast<double>(chain.size());
+  while (profile.end < rows.size() && rows[profile.end] >= rows_min) {
+    profile.parts[profile.end] /= rows[profile.end];
+    ++profile.end;
   }
-  return static_cast<int>(std::max(k - 1, kFewest_px));
+  return profile;
 }
 
+/// From pixel `first` on, as far as it goes.
+ChainEstimator::Straight ChainEstimator::straight_from(const MeanProfile& profile,
+                                                       std::size_t first) {
+  constexpr double kBend_parts = 0.4 * DisparityTable::kPartsPerQuantum;
+  Straight straight;
+  for (std::size_t k = first; k < profile.end; ++k) {
+    const double place = static_cast<double>(k);
+    const bool is_bent = std::abs(profile.parts[k] - straight.line.at(place)) > kBend_parts;
+    if (k >= first + kStraight_px && is_bent) break;
+    straight.line.add(place, profile.parts[k]);
+  }
+  straight.last_px = static_cast<int>(first) - 1 + static_cast<int>(straight.line.count());
+  return straight;
+}
+
+/// Where the near surface is to be measured. Readings misplaced by matching say of a slanted
+/// surface too little slope, so those nearest to the border are left out where the surface goes on
+/// straight beyond them. Where it does not, it is the side of something, seen at a grazing angle,
+/// that ends after a few pixels: its front must not bend the fit.
+ChainEstimator::Inside ChainEstimator::inside_of(std::span<const EdgePixel> chain,
+                                                 double misplaced_px) const {
+  const MeanProfile profile = mean_profile(chain);
+  const auto settled = static_cast<std::size_t>(std::lround(2.0 * misplaced_px));
+  const Straight inner = straight_from(profile, std::max<std::size_t>(settled, 1));
+  if (inner.line.count() >= kStraight_px &&
+      goes_on_to_border(profile.parts[1], inner.line, misplaced_px)) {
+    return {static_cast<int>(settled), inner.last_px};
+  }
+  return {0, std::max<int>(straight_from(profile, 1).last_px, kStraight_px)};
+}
+
+/// Over pixels from the row's edge and rows, not columns and rows: where rows are misplaced, a
+/// slope by columns comes out too small.
 SurfacePlane ChainEstimator::near_plane(std::span<const EdgePixel> chain, const Middle& middle,
-                                        int deepest_px, const SurfacePlane* trimmed_about) const {
+                                        const Inside& inside,
+                                        const SurfacePlane* trimmed_about) const {
   constexpr double kTrim_parts = 1.5 * DisparityTable::kPartsPerQuantum;
-  SurfacePlane plane(middle.u_px, middle.v_px);
+  SurfacePlane plane(inside.first_px, middle.v_px);
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const EdgePixel& pixel = chain[i];
-    const int end = std::min<int>(pixel.near_run_px, deepest_px + 1);
-    for (int k = first_inside_px(pixel); k < end; ++k) {
-      const int u = pixel.u_px + k * pixel.inward_px();
+    const int end = std::min<int>(pixel.near_run_px, inside.last_px + 1);
+    for (int k = std::max(inside.first_px, first_inside_px(pixel)); k < end; ++k) {
       const double parts = near_rows_[i][static_cast<std::size_t>(k)];
-      if (trimmed_about && std::abs(trimmed_about->at(u, pixel.v_px) - parts) > kTrim_parts) {
+      if (trimmed_about && std::abs(trimmed_about->at(k, pixel.v_px) - parts) > kTrim_parts) {
         continue;
       }
-      plane.add(u, pixel.v_px, parts);
+      plane.add(k, pixel.v_px, parts);
     }
   }
   return plane;

@@ -12,6 +12,7 @@
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/edge_pixel.h"
 #include "services/landmark_svc/core/landmark.h"
+#include "services/landmark_svc/core/line_fit.h"
 #include "services/landmark_svc/core/reject_counts.h"
 #include "services/landmark_svc/core/surface_plane.h"
 
@@ -28,14 +29,16 @@ struct ChainEstimateParams {
   /// that is not sharp, 1 to 1.5 cm. A filter takes every frame for news, so it is said to be more.
   double lateral_bias_m = 0.02;
   double depth_noise_quanta = 1.0;  ///< sigma of one row's depth
-  double depth_bias_m = 0.04;       ///< likewise along the ray
+  /// Likewise along the ray: the side of a door jamb too narrow to be told from its front, the
+  /// half of a chair leg turned away. It changes with the distance, so a filter takes it for motion.
+  double depth_bias_m = 0.10;
   RoundParams round;
 };
 
 /// Turns chains of edge pixels into landmarks.
 ///
-/// The near surface's disparity is fitted as a plane in the image (as deep as it is straight, at
-/// most 8 pixels from the edge, trimmed once) and extended to the edge line, half a pixel outside
+/// The near surface's disparity is fitted as a plane over rows and pixels from the edge (as deep as
+/// it is straight, at most 9, trimmed once) and extended to the edge line, half a pixel outside
 /// the near pixels. Each row then gives a point; lateral and along-ray position against height are
 /// fitted as lines, trimmed once. Their means are the landmark, their slopes its lean, the scatter
 /// its raggedness. Position sigmas, from which the range-bearing covariance follows by its
@@ -80,6 +83,21 @@ class ChainEstimator {
   };
   /// Disparity of one row's near surface, in parts, from the near pixel inwards.
   using NearRow = std::array<std::uint16_t, kNearRunMax_px>;
+  /// Relative to the pixel after the edge's own.
+  struct MeanProfile {
+    std::array<double, kNearRunMax_px> parts{};
+    std::size_t end = 1;  ///< half of the rows go on so far
+  };
+  static constexpr std::size_t kStraight_px = 3;  ///< fewer pixels are always straight
+  struct Straight {
+    LineFit line;     ///< parts by pixels from the edge
+    int last_px = 0;  ///< from the edge
+  };
+  /// Which pixels of the near surface to use, counted from the row's edge.
+  struct Inside {
+    int first_px;
+    int last_px;
+  };
   /// Where the chain is seen, before anything is fitted.
   struct Middle {
     double u_px;
@@ -100,9 +118,11 @@ class ChainEstimator {
   std::optional<double> place_points(const Scene& scene, std::span<const EdgePixel> chain,
                                      const Middle& middle);
   void gather_near_rows(const Scene& scene, std::span<const EdgePixel> chain);
-  int straight_depth_px(std::span<const EdgePixel> chain) const;
-  SurfacePlane near_plane(std::span<const EdgePixel> chain, const Middle& middle, int deepest_px,
-                          const SurfacePlane* trimmed_about) const;
+  MeanProfile mean_profile(std::span<const EdgePixel> chain) const;
+  static Straight straight_from(const MeanProfile& profile, std::size_t first);
+  Inside inside_of(std::span<const EdgePixel> chain, double misplaced_px) const;
+  SurfacePlane near_plane(std::span<const EdgePixel> chain, const Middle& middle,
+                          const Inside& inside, const SurfacePlane* trimmed_about) const;
   Lines fit_lines() const;
   void trim(const Lines& lines, double smallest_m);
 

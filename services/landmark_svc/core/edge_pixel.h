@@ -23,6 +23,6 @@ struct EdgePixel {
   bool operator==(const EdgePixel&) const = default;
 };
 
-inline constexpr int kNearRunMax_px = 8;
+inline constexpr int kNearRunMax_px = 10;
 
 }  // namespace roomwise::landmark

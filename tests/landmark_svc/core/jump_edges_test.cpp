@@ -137,7 +137,7 @@ TEST(JumpEdges, BoxBeforeAWallHasTwo) {
                                        .near_steps = 1500,
                                        .far_steps = 3000,
                                        .gap_px = 1,
-                                       .near_run_px = 8,
+                                       .near_run_px = kNearRunMax_px,
                                        .side = EdgeSide::kLeft}));
   EXPECT_EQ(found.edges[1].u_px, 39);
   EXPECT_EQ(found.edges[1].side, EdgeSide::kRight);

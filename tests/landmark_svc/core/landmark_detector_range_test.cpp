@@ -48,6 +48,31 @@ TEST(LandmarkDetectorRange, ADoorwayHasItsPostsThoughWhatLiesBehindIsTooFarForAD
   EXPECT_TRUE(std::none_of(unproven.begin(), unproven.end(), is_occluding));
 }
 
+/// Window matching misplaces the border row by row, so that the readings beside it are of places
+/// further in, which on a wall along the way are nearer.
+TEST(LandmarkDetectorRange, TheEndOfAWallAlongTheWayIsWhereItIs) {
+  const Eigen::Vector2d end_m(2.0, 0.5);
+  const SyntheticRoom room{.boxes = {{.low_m = {0.5, end_m.y(), 0.0}, .high_m = {2.0, 0.8, 1.0}},
+                                     {.low_m = {3.5, -4.0, 0.0}, .high_m = {3.6, 4.0, 2.5}}}};
+  constexpr int kFrames = 20;
+  double sum_m = 0.0;
+  int seen = 0;
+  for (std::uint32_t seed = 1; seed <= kFrames; ++seed) {
+    LandmarkDetector detector{LandmarkParams{}};
+    ASSERT_EQ(detector.detect(far_view(room, seed)), DetectResult::kOk);
+    for (const Landmark& landmark : detector.landmarks()) {
+      const double x_m = landmark.range_m * std::cos(landmark.bearing_rad);
+      const double y_m = landmark.range_m * std::sin(landmark.bearing_rad);
+      if (!is_occluding(landmark) || std::hypot(x_m - 2.0, y_m - end_m.y()) > 0.15) continue;
+      sum_m += landmark.range_m - end_m.norm();
+      ++seen;
+    }
+  }
+  ASSERT_GE(seen, kFrames / 2);
+  const double quantum_m = 2.0 * 2.0 / 351.0;
+  EXPECT_LT(std::abs(sum_m / seen), 0.35 * quantum_m);
+}
+
 TEST(LandmarkDetectorRange, AutomaticRangeLeavesTheBackgroundOut) {
   SyntheticRoom room = furnished_room();
   LandmarkParams params;
