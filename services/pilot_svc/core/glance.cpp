@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "services/pilot_svc/core/free_way.h"
+
 namespace roomwise::pilot {
 namespace {
 
@@ -9,6 +11,8 @@ constexpr double kInView_rad = 0.4;
 constexpr double kFaces_rad = 0.1;
 constexpr double kSamePlace_m = 0.15;
 constexpr double kGlance_s = 6.0;  // safety_svc may not let it
+constexpr double kFloorNeeded_m = 0.25;
+constexpr double kLine_m = 0.1;  // half of the width looked along
 
 }  // namespace
 
@@ -22,10 +26,13 @@ bool Glance::was_looked_at(Time now, const Eigen::Vector2d& p_odom_m) const {
          (p_odom_m - *looked_at_odom_m_).norm() < kSamePlace_m;
 }
 
-bool Glance::begin(Time now, const Pose2& T_odom_robot, const Eigen::Vector2d& p_robot_m) {
+bool Glance::begin(Time now, const Pose2& T_odom_robot, const Eigen::Vector2d& p_robot_m,
+                   std::span<const Eigen::Vector2d> obstacles_robot_m) {
   const double bearing_rad = std::atan2(p_robot_m.y(), p_robot_m.x());
   const Eigen::Vector2d p_odom_m = transform(T_odom_robot, p_robot_m);
   if (std::abs(bearing_rad) < kInView_rad || was_looked_at(now, p_odom_m)) return false;
+  const double view_m = swept_way_m(obstacles_robot_m, bearing_rad, kLine_m, params_.reach_m);
+  if (view_m < params_.floor_seen_from_m + kFloorNeeded_m) return false;
   is_on_ = true;
   began_ = now;
   heading_rad_ = wrap_angle(T_odom_robot.heading_rad + bearing_rad);

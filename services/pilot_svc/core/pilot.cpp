@@ -124,7 +124,9 @@ void Pilot::add_refusal(const Eigen::Vector2d& p_robot_m) {
   if (track_count_ == 0 || !is_near) return;
   const OdometrySample& last = track_[(track_count_ - 1) % kTrack];
   refused_ = last.time;
-  if (glance_.is_on() || glance_.begin(last.time, last.T_odom_robot, p_robot_m)) return;
+  if (glance_.is_on()) return;
+  memory_.obstacles_round(last.time, last.T_odom_robot, obstacles_robot_m_);
+  if (glance_.begin(last.time, last.T_odom_robot, p_robot_m, obstacles_robot_m_)) return;
   memory_.refuse(last.time, transform(last.T_odom_robot, p_robot_m));
 }
 

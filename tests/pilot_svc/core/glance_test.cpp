@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace roomwise::pilot {
 namespace {
 
@@ -16,6 +18,11 @@ class GlanceTest : public testing::Test {
     }
   }
 
+  bool begin(const Eigen::Vector2d& p_robot_m) {
+    return glance_.begin(now_, T_odom_robot_, p_robot_m, obstacles_robot_m_);
+  }
+
+  std::vector<Eigen::Vector2d> obstacles_robot_m_;
   PilotParams params_;
   Glance glance_{params_};
   Time now_ = time_from_utime(1'000'000);
@@ -23,7 +30,7 @@ class GlanceTest : public testing::Test {
 };
 
 TEST_F(GlanceTest, FacesThePlaceStaysAWhileAndEnds) {
-  ASSERT_TRUE(glance_.begin(now_, T_odom_robot_, {0.1, -0.3}));
+  ASSERT_TRUE(begin({0.1, -0.3}));
   turn_for(1.0);
   EXPECT_TRUE(glance_.is_on());
   turn_for(4.0);
@@ -32,23 +39,29 @@ TEST_F(GlanceTest, FacesThePlaceStaysAWhileAndEnds) {
 }
 
 TEST_F(GlanceTest, WhatIsInViewAnywayIsNotLookedAt) {
-  EXPECT_FALSE(glance_.begin(now_, T_odom_robot_, {0.3, 0.05}));
+  EXPECT_FALSE(begin({0.3, 0.05}));
+}
+
+TEST_F(GlanceTest, NotTowardWhatStandsSoNearThatNoFloorIsSeen) {
+  obstacles_robot_m_ = {{0.0, -0.7}};
+  EXPECT_FALSE(begin({0.0, -0.3}));
+  EXPECT_TRUE(begin({0.0, 0.3}));
 }
 
 TEST_F(GlanceTest, TheSamePlaceIsNotLookedAtAgainSoSoon) {
-  ASSERT_TRUE(glance_.begin(now_, T_odom_robot_, {0.0, 0.3}));
+  ASSERT_TRUE(begin({0.0, 0.3}));
   turn_for(5.0);
   T_odom_robot_ = {};
-  EXPECT_FALSE(glance_.begin(now_, T_odom_robot_, {0.05, 0.25}));
-  EXPECT_TRUE(glance_.begin(now_, T_odom_robot_, {0.0, -0.3}));
+  EXPECT_FALSE(begin({0.05, 0.25}));
+  EXPECT_TRUE(begin({0.0, -0.3}));
   turn_for(5.0);
   now_ += std::chrono::seconds(60);
   T_odom_robot_ = {};
-  EXPECT_TRUE(glance_.begin(now_, T_odom_robot_, {0.0, -0.3}));
+  EXPECT_TRUE(begin({0.0, -0.3}));
 }
 
 TEST_F(GlanceTest, EndsThoughItIsNotLetTurn) {
-  ASSERT_TRUE(glance_.begin(now_, T_odom_robot_, {0.0, 0.3}));
+  ASSERT_TRUE(begin({0.0, 0.3}));
   now_ += std::chrono::seconds(7);
   (void)glance_.step(now_, T_odom_robot_);
   EXPECT_FALSE(glance_.is_on());
