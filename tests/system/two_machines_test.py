@@ -40,15 +40,27 @@ DRIVES_mps = 0.05
 STANDS_mps = 0.005
 PULLED_s = 3.0
 STOP_MOST_s = 0.5
+STRAYS_MOST_m = 0.25 * STOP_MOST_s  # at pilot_svc's speed_mps
 LOST_MOST_ratio = 0.01
 LATE_MOST_ms = 100.0  # the median; far above what a wire costs, far below what is seen as a stop
 
 
+def places(log):
+    """(utime, x m, y m) of TRUTH"""
+    return [PLACE.unpack_from(data) for _, _, data in messages(log, ("TRUTH",))]
+
+
+def widest_gap(log):
+    """(seconds, metres) between the two places that have the longest time between them."""
+    found = places(log)
+    return max(((1e-6 * (after[0] - before[0]), math.dist(before[1:], after[1:]))
+                for before, after in zip(found, found[1:])), default=(0.0, 0.0))
+
+
 def speeds(log):
-    """(time of the later one in seconds, m/s) between places of TRUTH one twentieth of a second apart."""
+    """(time of the later one in seconds, m/s) between places a twentieth of a second apart."""
     found, before = [], None
-    for _, _, data in messages(log, ("TRUTH",)):
-        utime, *place = PLACE.unpack_from(data)
+    for utime, *place in places(log):
         if before is None or utime - before[0] >= 50_000:
             if before:
                 found.append((1e-6 * utime,
@@ -144,6 +156,22 @@ class TwoMachines(unittest.TestCase):
         self.machines["workstation"].plug_in()
         self.until("a robot that goes on", lambda: drives_now(whole))
         print(f"the cable is back: it drives again after {time.time() - back_s:.1f} s")
+
+    def test_a_robot_that_loses_its_own_network_stands(self):
+        """Its processes no longer hear each other either; nor does a logger."""
+        log, _ = self.record("robot", "whole")
+        self.start("robot", ROBOT)
+        self.start("workstation", WORKSTATION)
+        self.wander()
+        self.until("a driving robot", lambda: drives_now(log))
+        self.machines["robot"].unplug()
+        time.sleep(PULLED_s)
+        self.machines["robot"].plug_in()
+        self.until("news of it", lambda: widest_gap(log)[0] > 0.9 * PULLED_s)
+        way_m = widest_gap(log)[1]
+        print(f"\nits own network is gone for {PULLED_s:.0f} s: it came {way_m:.2f} m")
+        self.assertLess(way_m, STRAYS_MOST_m)
+        self.until("a robot that goes on", lambda: drives_now(log))
 
     def measure(self):
         logs = {name: self.record(name, "measured") for name in self.machines}
