@@ -24,7 +24,8 @@ class Service:
 
 
 def create_arguments(setup):
-    return ["--port", setup.create_port] if setup.mode == "sim" else []
+    port = ["--port", setup.create_port] if setup.mode == "sim" else []
+    return [*port, "--key_path", str(setup.key)] if setup.key else port
 
 
 def simulator_arguments(setup):
@@ -38,6 +39,10 @@ def kinect_arguments(setup):
 
 def kinect_environment(setup):
     return [f"ROOMWISE_SIM_KINECT={setup.kinect_door}"] if setup.mode == "sim" else []
+
+
+def safety_arguments(setup):
+    return ["--key_path", str(setup.key), "--make_key", "false"] if setup.key else []
 
 
 def viewer_arguments(_setup):
@@ -55,7 +60,8 @@ SERVICES = (
     Service("landmark_svc", ALWAYS, "KINECT_FRAME of kinect_pub"),
     Service("segment_svc", ALWAYS, "KINECT_FRAME of kinect_pub"),
     Service("ekf_svc", ALWAYS, "ODOMETRY of create_driver, LANDMARKS of landmark_svc"),
-    Service("safety_svc", LIVE, "everything above: it stops for what is missing"),
+    Service("safety_svc", LIVE, "everything above: it stops for what is missing",
+            safety_arguments),
     Service("pilot_svc", LIVE, "POSE of ekf_svc, SEGMENTS of segment_svc, safety_svc"),
     Service("viewer", ALWAYS, "nothing: it shows what there is", viewer_arguments),
 )
@@ -70,6 +76,7 @@ class Setup:
     kinect_door: str
     programs: pathlib.Path
     camera: str = ""  #: WIDTHxHEIGHT; empty: kinect_pub's own choice
+    key: pathlib.Path | None = None  #: that signs commands; None: safety_svc makes one for this machine
 
     def command(self, service):
         words = [str(self.programs / service.name)]

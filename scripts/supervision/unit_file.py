@@ -32,7 +32,7 @@ def unit(mode, options):
     for name in ("only", "without"):
         if getattr(options, name):
             words += [f"--{name}", ",".join(getattr(options, name))]
-    for name in ("url", "run_dir"):
+    for name in ("url", "run_dir", "key"):
         if getattr(options, name):
             words += [f"--{name.replace('_', '-')}", str(getattr(options, name))]
     command = shlex.join(words).replace("%", "%%")

@@ -87,6 +87,16 @@ class Start(StartedRun):
             with self.assertRaises(ValueError):
                 names("robot", **what)
 
+    def test_a_key_from_a_file_goes_to_who_signs_and_to_who_checks(self):
+        key = self.scratch / "drive.key"
+        self.start("--key", key, programs=self.stand_ins("create_driver", "safety_svc", "ekf_svc"))
+        self.until("all", self.all_up)
+        self.assertRegex(self.said(), rf"create_driver +\| started with .*--key_path {key}\n")
+        self.assertRegex(self.said(), rf"safety_svc +\| .*--key_path {key} --make_key false\n")
+        self.assertEqual(self.said().count(str(key)), 2)
+        unit = self.run_script("start", "--robot", "--key", key, "--print-unit")
+        self.assertIn(f" --key {key}\n", unit.stdout)
+
     def test_a_replay_starts_nothing_that_drives_and_plays_no_commands(self):
         replayed = [s.name for s in services.chosen("replay", [], [])]
         self.assertFalse({"create_driver", "kinect_pub", "safety_svc", "pilot_svc", "simulator"}
