@@ -30,7 +30,8 @@ struct ChainEstimateParams {
   double lateral_bias_m = 0.02;
   double depth_noise_quanta = 1.0;  ///< sigma of one row's depth
   /// Likewise along the ray: the side of a door jamb too narrow to be told from its front, the
-  /// half of a chair leg turned away. It changes with the distance, so a filter takes it for motion.
+  /// half of a chair leg turned away. It changes with the distance, so a filter takes it for
+  /// motion.
   double depth_bias_m = 0.10;
   RoundParams round;
 };

@@ -38,9 +38,7 @@ TEST_F(GlanceTest, FacesThePlaceStaysAWhileAndEnds) {
   EXPECT_NEAR(T_odom_robot_.heading_rad, std::atan2(-0.3, 0.1), 0.1);
 }
 
-TEST_F(GlanceTest, WhatIsInViewAnywayIsNotLookedAt) {
-  EXPECT_FALSE(begin({0.3, 0.05}));
-}
+TEST_F(GlanceTest, WhatIsInViewAnywayIsNotLookedAt) { EXPECT_FALSE(begin({0.3, 0.05})); }
 
 TEST_F(GlanceTest, NotTowardWhatStandsSoNearThatNoFloorIsSeen) {
   obstacles_robot_m_ = {{0.0, -0.7}};
