@@ -16,6 +16,8 @@ EdgePixel pixel(int u, int v, int depth_mm = 2000, EdgeSide side = EdgeSide::kLe
           .side = side};
 }
 
+const int kRowStepMost_px = ChainParams{}.row_gap_max_px + 1;
+
 std::vector<std::vector<EdgePixel>> chains_of(const std::vector<EdgePixel>& edges) {
   DisparityTable table;
   table.prepare(0.001, 351.0);
@@ -44,7 +46,8 @@ RC_GTEST_PROP(EdgeChains, EveryEdgeIsInOneChainOfItsSideRowsRisingSteadily, ()) 
     total += chain.size();
     for (std::size_t i = 1; i < chain.size(); ++i) {
       RC_ASSERT(chain[i].side == chain[0].side);
-      RC_ASSERT(chain[i].v_px < chain[i - 1].v_px && chain[i].v_px >= chain[i - 1].v_px - 4);
+      RC_ASSERT(chain[i].v_px < chain[i - 1].v_px);
+      RC_ASSERT(chain[i].v_px >= chain[i - 1].v_px - kRowStepMost_px);
       RC_ASSERT(std::abs(chain[i].u_px - chain[i - 1].u_px) <= 4);
       RC_ASSERT(std::abs(chain[i].near_steps - chain[i - 1].near_steps) <= 115);
     }
@@ -63,7 +66,8 @@ TEST(EdgeChains, FollowOneEdgeAcrossMissingRows) {
 TEST(EdgeChains, PartAtADepthJumpAWideStepOrALongPause) {
   EXPECT_EQ(chains_of({pixel(100, 0, 2000), pixel(100, 1, 2200)}).size(), 2u);
   EXPECT_EQ(chains_of({pixel(100, 0), pixel(105, 1)}).size(), 2u);
-  EXPECT_EQ(chains_of({pixel(100, 0), pixel(100, 5)}).size(), 2u);
+  EXPECT_EQ(chains_of({pixel(100, 0), pixel(100, kRowStepMost_px)}).size(), 1u);
+  EXPECT_EQ(chains_of({pixel(100, 0), pixel(100, kRowStepMost_px + 1)}).size(), 2u);
   EXPECT_EQ(chains_of({pixel(100, 0), pixel(100, 1, 2000, EdgeSide::kRight)}).size(), 2u);
 }
 
