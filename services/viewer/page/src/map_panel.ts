@@ -58,7 +58,9 @@ export class MapPanel {
     if (this.poses.estimate.now) this.drawRobot(this.poses.estimate.now, PATH_COLORS.estimate);
     if (this.goal) this.drawGoal(this.goal);
     this.canvas.dataset.landmarks = String(this.landmarks.length);
-    say("map_note", `${this.landmarks.length} landmarks`);
+    // What is seen from one place only may be an error of the detector: ekf_svc waits for a second.
+    const count = this.landmarks.length;
+    say("map_note", count > 0 ? `${count} landmarks` : "no landmarks yet: drive or turn a little");
   }
 
   /** Robot, paths and landmarks in view, with a margin. */
