@@ -71,13 +71,18 @@ struct ObstacleMemory::Ray {
   Eigen::Vector2d direction;  // unit length
   double free_m = 0.0;
   double seen_from_m = 0.0;
+  double own_m = 0.0;
   bool is_dark = false;
   Reason end = Reason::kObstacle;
 
   bool sees_floor() const { return free_m > seen_from_m; }
   /// Where the floor did not come into view: what may stand there stands between these.
-  double doubtful_from_m() const { return is_dark ? 0.0 : kNearestReading_m; }
+  double doubtful_from_m() const { return is_dark ? own_m + kCell_m : kNearestReading_m; }
   double doubtful_to_m() const { return is_dark ? kReach_m : seen_from_m + 2.0 * kCell_m; }
+  /// What explains the view is no farther: in the dark it is too near to be measured.
+  double explained_within_m() const {
+    return (is_dark ? kNearestReading_m : seen_from_m) + 2.0 * kCell_m;
+  }
   Eigen::Vector2d at(double range_m) const { return p_odom_m + range_m * direction; }
 };
 
@@ -87,7 +92,8 @@ ObstacleMemory::ObstacleMemory()
 
 void ObstacleMemory::forget() { std::fill(cells_.begin(), cells_.end(), Cell{}); }
 
-bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const FreeView& view) {
+bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const FreeView& view,
+                         double own_m) {
   if (!is_view(view)) return false;
   const auto ray_of = [&](std::size_t bin) {
     const double bearing_rad =
@@ -99,6 +105,7 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
                .direction = direction,
                .free_m = std::clamp(view.free_range_m[bin], 0.0, kReach_m),
                .seen_from_m = view.floor_seen_from_m / std::cos(bearing_rad),
+               .own_m = own_m,
                // either bound: no shadow is known to a bit.
                .is_dark = is_dark && dark_round_rad(view, bin) >= kShadow_rad,
                .end = view.has_drop_off ? Reason::kDropOff
@@ -154,7 +161,7 @@ void ObstacleMemory::open(const Instant& now, const Ray& ray) {
 }
 
 void ObstacleMemory::doubt(const Instant& now, const Ray& ray) {
-  const double explained_to_m = ray.is_dark ? 0.0 : closed_at_m(now, ray);
+  const double explained_to_m = closed_at_m(now, ray);
   // either bound: steps are half a cell.
   for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
     const Eigen::Vector2d p_odom_m = ray.at(range_m);
@@ -168,7 +175,8 @@ void ObstacleMemory::doubt(const Instant& now, const Ray& ray) {
 
 double ObstacleMemory::closed_at_m(const Instant& now, const Ray& ray) const {
   // either bound: steps are half a cell.
-  for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
+  for (double range_m = ray.doubtful_from_m(); range_m < ray.explained_within_m();
+       range_m += kStep_m) {
     if (at(now, ray.at(range_m)).ground == Ground::kClosed) return range_m;
   }
   return 0.0;

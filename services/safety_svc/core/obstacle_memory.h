@@ -43,7 +43,9 @@ struct FreeView {
 ///   - f < s: the floor came not into view. If the pixels have readings, what stands there is no
 ///     nearer than a Kinect measures and no farther than s: that is unknown again, or, before
 ///     something closed that explains the view, overlooked. If most have none, over a wider angle
-///     than shadows have, anything may stand anywhere: all of it is unknown again. (But for three
+///     than shadows have, anything may stand anywhere: all of it is unknown again, from the room
+///     the robot itself takes up on; but before something closed too near to be measured, which is
+///     what a robot sees that turns toward a wall beside it, overlooked. (But for three
 ///     bearings at either edge of what was ever in view: there pixels come and go.)
 /// At the edges of each view, where bearings are in view in part, nothing is closed. Only seeing
 /// the floor opens what was closed. Free fades to overlooked, closed to unknown.
@@ -59,9 +61,12 @@ class ObstacleMemory {
   /// Forgets everything: a new odom frame.
   void forget();
 
-  /// Takes up what was seen from `T_odom_robot`. False, and nothing changed, if its numbers are no
-  /// view: counts that differ, none or more than 1000, or anything not finite.
-  [[nodiscard]] bool see(const Instant& now, const Pose2& T_odom_robot, const FreeView& view);
+  /// Takes up what was seen from `T_odom_robot` by a robot that takes up a circle of `own_m`, its
+  /// margin included: what is that near is in doubt only together with what lies behind it. False,
+  /// and nothing changed, if the view's numbers are no view: counts that differ, none or more than
+  /// 1000, or anything not finite.
+  [[nodiscard]] bool see(const Instant& now, const Pose2& T_odom_robot, const FreeView& view,
+                         double own_m);
 
   /// Whatever is unknown within `radius_m` counts as overlooked: somebody put the robot there.
   void overlook_round(const Instant& now, const Pose2& T_odom_robot, double radius_m);

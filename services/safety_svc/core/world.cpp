@@ -53,7 +53,8 @@ InputResult World::hear_view(const Instant& now, const FloorView& seen) {
   if (!T_odom_robot) return InputResult::kNoPose;
   FreeView free = seen.free;
   free.floor_seen_from_m = floor_seen_from_m();
-  if (!memory_.see(now, *T_odom_robot, free)) return InputResult::kMalformed;
+  const double own_m = params_.robot_radius_m + params_.margin_m;
+  if (!memory_.see(now, *T_odom_robot, free, own_m)) return InputResult::kMalformed;
   view = heard;
   if (seen.is_plane_trusted) {
     is_tilted_ = safety::is_tilted(*mount_, seen.floor_normal, seen.floor_height_m);

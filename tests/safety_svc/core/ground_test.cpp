@@ -16,6 +16,8 @@ using std::chrono::seconds;
 
 constexpr Instant kSeen{seconds(100), time_from_utime(1'700'000'000'000'000)};
 
+constexpr double kOwn_m = 0.22;  // what the robot and its margin take up
+
 Instant seen_later(Duration time) { return {kSeen.steady + time, kSeen.wall + time}; }
 
 /// A view of 21 bearings of 2 degrees, all alike.
@@ -34,7 +36,7 @@ struct UniformView {
 
 TEST(ObstacleMemory, TellsFreeClosedOverlookedAndUnknown) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.0, 0.0}).ground, Ground::kFree);
   EXPECT_EQ(memory.at(kSeen, {0.72, 0.0}).ground, Ground::kFree);
   EXPECT_EQ(memory.at(kSeen, {0.6, 0.0}).ground, Ground::kOverlooked);
@@ -48,7 +50,7 @@ TEST(ObstacleMemory, TellsFreeClosedOverlookedAndUnknown) {
 
 TEST(ObstacleMemory, Fades) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(seen_later(kFreeLife), {1.0, 0.0}).ground, Ground::kFree);
   EXPECT_EQ(memory.at(seen_later(kFreeLife + Duration(1)), {1.0, 0.0}).ground, Ground::kOverlooked);
   EXPECT_EQ(memory.at(seen_later(std::chrono::hours(1)), {1.0, 0.0}).ground, Ground::kOverlooked);
@@ -60,43 +62,68 @@ TEST(ObstacleMemory, Fades) {
 
 TEST(ObstacleMemory, OnlySeeingTheFloorOpensWhatWasClosed) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view(), kOwn_m));
   const Pose2 nearer{1.0, 0.0, 0.0};  // now 0.52 m ahead, in the blind zone
-  ASSERT_TRUE(memory.see(kSeen, nearer, UniformView(2.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, nearer, UniformView(2.0, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.52, 0.0}).ground, Ground::kClosed);
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(2.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(2.0, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.52, 0.0}).ground, Ground::kFree);
 }
 
 TEST(ObstacleMemory, WhereNoFloorComesIntoViewItDoubtsWhatItKnew) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view(), kOwn_m));
   ASSERT_EQ(memory.at(kSeen, {0.3, 0.0}).ground, Ground::kFree);
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {0.3, 0.0}).ground, Ground::kFree) << "no reading is that near";
   EXPECT_EQ(memory.at(kSeen, {0.6, 0.0}).ground, Ground::kUnknown);
   EXPECT_EQ(memory.at(kSeen, {1.2, 0.0}).ground, Ground::kFree);
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.9).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.9).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {0.3, 0.0}).ground, Ground::kUnknown);
   EXPECT_EQ(memory.at(kSeen, {1.2, 0.0}).ground, Ground::kUnknown);
 }
 
 TEST(ObstacleMemory, BeforeSomethingClosedThatExplainsTheViewItOnlyOverlooks) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {-0.8, 0.0, 0.0}, UniformView(1.52, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {-0.8, 0.0, 0.0}, UniformView(1.52, 0.1).view(), kOwn_m));
   ASSERT_EQ(memory.at(kSeen, {0.72, 0.0}).ground, Ground::kClosed);
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {0.3, 0.0}).ground, Ground::kFree) << "no reading is that near";
   EXPECT_EQ(memory.at(kSeen, {0.6, 0.0}).ground, Ground::kOverlooked);
   EXPECT_EQ(memory.at(kSeen, {0.72, 0.0}).ground, Ground::kClosed);
   EXPECT_EQ(memory.at(kSeen, {0.78, 0.0}).ground, Ground::kClosed) << "the cell behind the edge";
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.9).view()));
-  EXPECT_EQ(memory.at(kSeen, {0.6, 0.0}).ground, Ground::kUnknown) << "in the dark all is unknown";
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.9).view(), kOwn_m));
+  EXPECT_EQ(memory.at(kSeen, {0.6, 0.0}).ground, Ground::kUnknown)
+      << "what stands that far off would be measured";
+}
+
+TEST(ObstacleMemory, InTheDarkBeforeSomethingTooNearToBeMeasuredItOnlyOverlooks) {
+  const auto dark_before = [](double wall_m) {
+    ObstacleMemory memory;
+    EXPECT_TRUE(memory.see(kSeen, {-1.2, 0.0, 0.0}, UniformView(1.2 + wall_m, 0.1).view(), kOwn_m));
+    EXPECT_EQ(memory.at(kSeen, {wall_m, 0.0}).ground, Ground::kClosed);
+    EXPECT_EQ(memory.at(kSeen, {0.36, 0.0}).ground, Ground::kFree);
+    EXPECT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.9).view(), kOwn_m));
+    EXPECT_EQ(memory.at(kSeen, {wall_m, 0.0}).ground, Ground::kClosed);
+    EXPECT_EQ(memory.at(kSeen, {wall_m + 0.2, 0.0}).ground, Ground::kUnknown);
+    return memory.at(kSeen, {0.36, 0.0}).ground;
+  };
+  EXPECT_EQ(dark_before(0.42), Ground::kOverlooked);
+  EXPECT_EQ(dark_before(0.52), Ground::kOverlooked) << "two cells beyond the nearest reading";
+  EXPECT_EQ(dark_before(0.57), Ground::kUnknown);
+}
+
+TEST(ObstacleMemory, InTheDarkTheRobotsOwnRoomIsNotInDoubt) {
+  ObstacleMemory memory;
+  memory.overlook_round(kSeen, {}, 0.45);
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.9).view(), kOwn_m));
+  EXPECT_EQ(memory.at(kSeen, {0.22, 0.0}).ground, Ground::kOverlooked);
+  EXPECT_EQ(memory.at(kSeen, {0.28, 0.0}).ground, Ground::kUnknown);
 }
 
 TEST(ObstacleMemory, ANarrowShadowIsNothingTooNearToBeMeasured) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view(), kOwn_m));
   UniformView shadow(2.0, 0.1);
   const std::size_t middle = shadow.free_m.size() / 2;
   const auto darken = [&](std::size_t bin) {
@@ -104,10 +131,10 @@ TEST(ObstacleMemory, ANarrowShadowIsNothingTooNearToBeMeasured) {
     shadow.unknown_ratio[bin] = 0.9;
   };
   for (std::size_t bin = middle - 2; bin <= middle + 1; ++bin) darken(bin);
-  ASSERT_TRUE(memory.see(kSeen, {}, shadow.view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, shadow.view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.2, 0.0}).ground, Ground::kFree) << "0.14 rad";
   darken(middle + 2);
-  ASSERT_TRUE(memory.see(kSeen, {}, shadow.view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, shadow.view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.2, 0.0}).ground, Ground::kUnknown) << "0.175 rad";
 }
 
@@ -121,19 +148,19 @@ TEST(ObstacleMemory, AtTheViewsEdgesNothingIsClosed) {
         view.first_bearing_rad + view.bearing_step_rad * static_cast<double>(bin);
     return Eigen::Vector2d(1.01 * std::cos(bearing_rad), 1.01 * std::sin(bearing_rad));
   };
-  ASSERT_TRUE(memory.see(kSeen, {}, view));
+  ASSERT_TRUE(memory.see(kSeen, {}, view, kOwn_m));
   EXPECT_NE(memory.at(kSeen, place(2)).ground, Ground::kClosed);
   EXPECT_NE(memory.at(kSeen, place(seen.free_m.size() - 3)).ground, Ground::kClosed);
   for (const std::size_t bin : {std::size_t{3}, seen.free_m.size() - 4}) seen.free_m[bin] = 1.0;
-  ASSERT_TRUE(memory.see(kSeen, {}, seen.view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, seen.view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, place(3)).ground, Ground::kClosed);
   EXPECT_EQ(memory.at(kSeen, place(seen.free_m.size() - 4)).ground, Ground::kClosed);
 }
 
 TEST(ObstacleMemory, AtTheEdgesOfWhatWasEverInViewNothingIsDoubted) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view()));
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view(), kOwn_m));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view(), kOwn_m));
   const auto ground_along = [&](int bin) {
     const double bearing_rad = 0.035 * bin - 0.35;
     return memory.at(kSeen, {0.78 * std::cos(bearing_rad), 0.78 * std::sin(bearing_rad)}).ground;
@@ -146,7 +173,7 @@ TEST(ObstacleMemory, WhatWasNeverSeenNothingExplains) {
   ObstacleMemory memory;
   memory.touch(kSeen, {0.3, 0.0, 0.0}, 0.17, Reason::kRemembered);
   ASSERT_EQ(memory.at(kSeen, {0.53, 0.0}).ground, Ground::kClosed);
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {0.48, 0.0}).ground, Ground::kUnknown);
 }
 
@@ -164,20 +191,20 @@ TEST(ObstacleMemory, WhereTheViewEndsWhereItBeginsNoFloorIsSeen) {
   const UniformView seen(0.72, 0.1);
   FreeView view = seen.view();
   view.floor_seen_from_m = 0.72;
-  ASSERT_TRUE(memory.see(kSeen, {}, view));
+  ASSERT_TRUE(memory.see(kSeen, {}, view, kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {0.72, 0.0}).ground, Ground::kUnknown) << "not closed";
 }
 
 TEST(ObstacleMemory, BeyondItsReachNothingIsClosed) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(ObstacleMemory::kReach_m, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(ObstacleMemory::kReach_m, 0.1).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {2.48, 0.0}).ground, Ground::kFree);
   EXPECT_EQ(memory.at(kSeen, {2.52, 0.0}).ground, Ground::kUnknown);
 }
 
 TEST(ObstacleMemory, ABearingOfWhichHalfIsReadIsNotDark) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, kUnknownRatio).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, kUnknownRatio).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.52, 0.0}).why, Reason::kObstacle);
 }
 
@@ -186,16 +213,16 @@ TEST(ObstacleMemory, AnEdgeToFallOffIsSaidToBeOne) {
   const UniformView seen(1.52, 0.1);
   FreeView view = seen.view();
   view.has_drop_off = true;
-  ASSERT_TRUE(memory.see(kSeen, {}, view));
+  ASSERT_TRUE(memory.see(kSeen, {}, view, kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.52, 0.0}).why, Reason::kDropOff);
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.9).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.9).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.52, 0.0}).why, Reason::kUnknown);
 }
 
 TEST(ObstacleMemory, WithNothingInViewNothingChanges) {
   ObstacleMemory memory;
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view()));
-  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.9, 1.0).view()));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(1.52, 0.1).view(), kOwn_m));
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.9, 1.0).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {1.52, 0.0}).ground, Ground::kClosed);
 }
 
@@ -212,7 +239,7 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
   const auto sees = [&](auto change) {
     FreeView view = good.view();
     change(view);
-    return memory.see(kSeen, {}, view);
+    return memory.see(kSeen, {}, view, kOwn_m);
   };
   EXPECT_TRUE(sees([](auto&) {}));
   EXPECT_FALSE(sees([](auto& v) { v.free_range_m = {}; }));
@@ -228,10 +255,10 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
   EXPECT_FALSE(sees([&](auto& v) { v.bearing_step_rad = nan; }));
   UniformView bad = good;
   bad.free_m[3] = nan;
-  EXPECT_FALSE(memory.see(kSeen, {}, bad.view()));
+  EXPECT_FALSE(memory.see(kSeen, {}, bad.view(), kOwn_m));
   bad = good;
   bad.unknown_ratio[3] = nan;
-  EXPECT_FALSE(memory.see(kSeen, {}, bad.view()));
+  EXPECT_FALSE(memory.see(kSeen, {}, bad.view(), kOwn_m));
   const std::vector<double> many(1001, 0.5);
   const auto sees_many = [&](std::size_t bins) {
     return sees([&](auto& v) {
@@ -248,7 +275,7 @@ TEST(ObstacleMemory, OverlooksWhatIsUnknownInACircleAndNothingElse) {
   memory.overlook_round(kSeen, {}, 0.45);
   EXPECT_EQ(memory.at(kSeen, {0.0, -0.4}).ground, Ground::kOverlooked);
   EXPECT_EQ(memory.at(kSeen, {-0.42, -0.42}).ground, Ground::kUnknown) << "a corner of the square";
-  ASSERT_TRUE(memory.see(kSeen, {-1.0, 0.0, 0.0}, UniformView(2.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {-1.0, 0.0, 0.0}, UniformView(2.0, 0.1).view(), kOwn_m));
   ASSERT_EQ(memory.at(kSeen, {0.3, 0.0}).ground, Ground::kFree);
   memory.overlook_round(kSeen, {}, 0.45);
   EXPECT_EQ(memory.at(kSeen, {0.3, 0.0}).ground, Ground::kFree);
@@ -257,7 +284,7 @@ TEST(ObstacleMemory, OverlooksWhatIsUnknownInACircleAndNothingElse) {
 TEST(SweptCorridor, SaysHowMuchOfItIsUnknown) {
   ObstacleMemory memory;
   EXPECT_EQ(sweep(kSeen, memory, {}, 0.0, 0.5, {}).unknown_ratio, 1.0);
-  ASSERT_TRUE(memory.see(kSeen, {-1.0, 0.0, 0.0}, UniformView(2.0, 0.1).view()));
+  ASSERT_TRUE(memory.see(kSeen, {-1.0, 0.0, 0.0}, UniformView(2.0, 0.1).view(), kOwn_m));
   EXPECT_LT(sweep(kSeen, memory, {}, 0.0, 0.5, {}).unknown_ratio, 0.01);
 }
 

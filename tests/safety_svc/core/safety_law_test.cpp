@@ -125,8 +125,8 @@ RC_GTEST_PROP(SafetyLaw, TheNearerTheWallTheSlower, ()) {
                         .unknown_ratio = unknown,
                         .floor_seen_from_m = 0.01};
     memory.overlook_round(now, {}, 0.45);
-    RC_ASSERT(memory.see(now, {}, view));
     const SafetyParams params;
+    RC_ASSERT(memory.see(now, {}, view, params.robot_radius_m + params.margin_m));
     const CorridorView corridor =
         sweep(now, memory, {}, turn_radps / asked_mps, stopping_distance_m(asked_mps), params);
     const double allowed_mps = std::min(asked_mps, stopping_speed_mps(corridor.free_m));
