@@ -92,6 +92,7 @@ FloorView view_of(const segmentation_t& message) {
                    .bearing_step_rad = message.bin_step_rad,
                    .free_range_m = array_of(message.free_range_m, message.bin_count),
                    .unknown_ratio = array_of(message.unknown_ratio, message.bin_count),
+                   .obstacle_range_m = array_of(message.obstacle_range_m, message.bin_count),
                    .has_drop_off = sees_drop_off(message)},
           .is_plane_trusted = message.floor_trusted != 0,
           .floor_normal = {normal[0], normal[1], normal[2]},

@@ -21,7 +21,7 @@ namespace roomwise::landmark {
 /// What a chain must be to become a landmark, and how sure its position is.
 struct ChainEstimateParams {
   double rows_min_px = 18.0;  ///< at 480 px image height
-  double height_span_min_m = 0.15;
+  double height_span_min_m = 0.08;
   double column_rms_max_px = 3.0;  ///< about its line, at 640 px image width
   double lean_max_rad = 0.14;      ///< from the vertical
   double lateral_noise_px = 1.0;   ///< sigma of an edge's column

@@ -18,7 +18,7 @@ struct CreaseParams {
   double angle_min_rad = 0.70;        ///< between the two sides
   double residual_max_quanta = 0.30;  ///< RMS of disparity about either side's line: the sensor's
   double residual_max_m = 0.003;      ///< and, added in squares, how uneven a surface may be
-  double bend_min_sigmas = 14.0;      ///< by which the two sides' slopes differ
+  double bend_min_sigmas = 11.0;      ///< by which the two sides' slopes differ
   double round_better_ratio = 1.5;  ///< a circle's RMS, of the two lines', from which on it is none
   double off_scan_max_m = 0.03;     ///< from the lines' crossing to the scan
   double suppress_px = 14.0;        ///< one crease within so many columns, at 640 px image width

@@ -13,7 +13,7 @@ struct ChainParams {
   double depth_step_m = 0.04;          ///< allowed change of near depth, plus the next line
   double depth_step_per_m_m2 = 0.012;  ///< times depth squared [m/m^2]
   int row_gap_max_px = 10;             ///< rows an edge may miss, at 480 px image height
-  int proof_rows_px = 6;     ///< edges with a measured far side that prove others, at 480 px height
+  int proof_rows_px = 4;     ///< edges with a measured far side that prove others, at 480 px height
   double bend_max_px = 4.0;  ///< column bend at which a chain is cut, at 640 px image width
 };
 

@@ -11,7 +11,7 @@ constexpr double kInView_rad = 0.4;
 constexpr double kFaces_rad = 0.1;
 constexpr double kSamePlace_m = 0.15;
 constexpr double kGlance_s = 6.0;  // safety_svc may not let it
-constexpr double kFloorBehind_m = 0.25;
+constexpr double kMeasured_m = 0.55;  // nearer than this a Kinect may not measure what stands there
 constexpr double kLine_m = 0.1;  // half of the width looked along
 
 }  // namespace
@@ -32,7 +32,7 @@ bool Glance::begin(Time now, const Pose2& T_odom_robot, const Eigen::Vector2d& p
   const Eigen::Vector2d p_odom_m = transform(T_odom_robot, p_robot_m);
   if (std::abs(bearing_rad) < kInView_rad || was_looked_at(now, p_odom_m)) return false;
   const double view_m = swept_way_m(obstacles_robot_m, bearing_rad, kLine_m, params_.reach_m);
-  if (view_m < params_.floor_seen_from_m + kFloorBehind_m) return false;
+  if (view_m < kMeasured_m) return false;
   is_on_ = true;
   began_ = now;
   heading_rad_ = wrap_angle(T_odom_robot.heading_rad + bearing_rad);

@@ -14,8 +14,8 @@ class Glance {
   explicit Glance(const PilotParams& params) : params_(params) {}
 
   /// False, and nothing begun, if the place (robot frame) is in view anyway or was looked at
-  /// lately, or if something stands so near behind it that no floor would be seen there: nothing
-  /// would become known, and what was known is doubted then.
+  /// lately, or if something stands so near behind it that it is not measured: nothing would become
+  /// known, and what was known is doubted then.
   [[nodiscard]] bool begin(Time now, const Pose2& T_odom_robot, const Eigen::Vector2d& p_robot_m,
                            std::span<const Eigen::Vector2d> obstacles_robot_m);
   bool is_on() const { return is_on_; }

@@ -27,7 +27,10 @@ std::int32_t cell_index(double p_m) {
 
 bool is_view(const FreeView& view) {
   const std::size_t bins = view.free_range_m.size();
-  if (bins == 0 || bins > kBinsMax || view.unknown_ratio.size() != bins) return false;
+  if (bins == 0 || bins > kBinsMax || view.unknown_ratio.size() != bins ||
+      view.obstacle_range_m.size() != bins) {
+    return false;
+  }
   const double last_rad =
       view.first_bearing_rad + view.bearing_step_rad * static_cast<double>(bins - 1);
   if (!(std::abs(view.first_bearing_rad) < kBearingMax_rad) ||
@@ -36,7 +39,8 @@ bool is_view(const FreeView& view) {
   }
   const auto is_finite = [](double value) { return std::isfinite(value); };
   return std::all_of(view.free_range_m.begin(), view.free_range_m.end(), is_finite) &&
-         std::all_of(view.unknown_ratio.begin(), view.unknown_ratio.end(), is_finite);
+         std::all_of(view.unknown_ratio.begin(), view.unknown_ratio.end(), is_finite) &&
+         std::all_of(view.obstacle_range_m.begin(), view.obstacle_range_m.end(), is_finite);
 }
 
 bool is_in_view(double unknown_ratio) { return unknown_ratio < 1.0; }
@@ -72,12 +76,21 @@ struct ObstacleMemory::Ray {
   double free_m = 0.0;
   double seen_from_m = 0.0;
   double own_m = 0.0;
+  double obstacle_m = 0.0;  // 0: none seen
   bool is_dark = false;
   Reason end = Reason::kObstacle;
 
   bool sees_floor() const { return free_m > seen_from_m; }
+  /// Near enough to be why no floor comes into view; an edge to fall off hides none.
+  bool sees_obstacle() const {
+    return !is_dark && end != Reason::kDropOff && obstacle_m > 0.0 &&
+           obstacle_m < seen_from_m + 2.0 * kCell_m;
+  }
   /// Where the floor did not come into view: what may stand there stands between these.
-  double doubtful_from_m() const { return is_dark ? own_m + kCell_m : kNearestReading_m; }
+  double doubtful_from_m() const {
+    if (is_dark) return own_m + kCell_m;
+    return sees_obstacle() ? obstacle_m - kCell_m : kNearestReading_m;
+  }
   double doubtful_to_m() const { return is_dark ? kReach_m : seen_from_m + 2.0 * kCell_m; }
   /// What explains the view is no farther: in the dark it is too near to be measured.
   double explained_within_m() const {
@@ -106,6 +119,7 @@ bool ObstacleMemory::see(const Instant& now, const Pose2& T_odom_robot, const Fr
                .free_m = std::clamp(view.free_range_m[bin], 0.0, kReach_m),
                .seen_from_m = view.floor_seen_from_m / std::cos(bearing_rad),
                .own_m = own_m,
+               .obstacle_m = view.obstacle_range_m[bin],
                // either bound: no shadow is known to a bit.
                .is_dark = is_dark && dark_round_rad(view, bin) >= kShadow_rad,
                .end = view.has_drop_off ? Reason::kDropOff
@@ -154,13 +168,23 @@ void ObstacleMemory::open(const Instant& now, const Ray& ray) {
     // either bound: steps are half a cell.
     if (range_m >= ray.seen_from_m) {
       set(now, p_odom_m, Ground::kFree, Reason::kAsAsked);
-    } else if (at(now, p_odom_m).ground == Ground::kUnknown) {
-      set(now, p_odom_m, Ground::kOverlooked, Reason::kAsAsked);
+    } else {
+      overlook(now, p_odom_m);
     }
   }
 }
 
+void ObstacleMemory::overlook(const Instant& now, const Eigen::Vector2d& p_odom_m) {
+  if (at(now, p_odom_m).ground != Ground::kUnknown) return;
+  set(now, p_odom_m, Ground::kOverlooked, Reason::kAsAsked);
+}
+
 void ObstacleMemory::doubt(const Instant& now, const Ray& ray) {
+  // either bound: steps are half a cell.
+  for (double range_m = 0.0; ray.sees_obstacle() && range_m < ray.doubtful_from_m();
+       range_m += kStep_m) {
+    overlook(now, ray.at(range_m));
+  }
   const double explained_to_m = closed_at_m(now, ray);
   // either bound: steps are half a cell.
   for (double range_m = ray.doubtful_from_m(); range_m < ray.doubtful_to_m(); range_m += kStep_m) {
@@ -197,9 +221,7 @@ void ObstacleMemory::overlook_round(const Instant& now, const Pose2& T_odom_robo
       // equivalent: a circle is its own mirror image.
       const Eigen::Vector2d p_odom_m = T_odom_robot.position_m() + Eigen::Vector2d(x_m, y_m);
       // either bound: as above.
-      if (std::hypot(x_m, y_m) <= radius_m && at(now, p_odom_m).ground == Ground::kUnknown) {
-        set(now, p_odom_m, Ground::kOverlooked, Reason::kAsAsked);
-      }
+      if (std::hypot(x_m, y_m) <= radius_m) overlook(now, p_odom_m);
     }
   }
 }

@@ -29,7 +29,8 @@ struct FreeView {
   double first_bearing_rad = 0.0;
   double bearing_step_rad = 0.0;
   std::span<const double> free_range_m;
-  std::span<const double> unknown_ratio;  ///< as many
+  std::span<const double> unknown_ratio;     ///< as many
+  std::span<const double> obstacle_range_m;  ///< as many; to what is seen to stand there; 0: none
   double floor_seen_from_m = 0.0;         ///< straight ahead; nearer is the blind zone
   bool has_drop_off = false;              ///< some of what ends the view is an edge to fall off
 };
@@ -40,13 +41,16 @@ struct FreeView {
 /// Along each bearing with free range f, in view from s on:
 ///   - s .. f is free, f and the cell behind it closed, what lies farther as it was;
 ///   - nearer than s, where nothing is known, is overlooked: rays pass above it;
-///   - f < s: the floor came not into view. If the pixels have readings, what stands there is no
-///     nearer than a Kinect measures and no farther than s: that is unknown again, or, before
-///     something closed that explains the view, overlooked. If most have none, over a wider angle
-///     than shadows have, anything may stand anywhere: all of it is unknown again, from the room
-///     the robot itself takes up on; but before something closed too near to be measured, which is
-///     what a robot sees that turns toward a wall beside it, overlooked. (But for three
-///     bearings at either edge of what was ever in view: there pixels come and go.)
+///   - f < s: the floor came not into view. What stands there is no nearer than a Kinect measures
+///     and no farther than s: from where something is seen to stand on that is unknown again, and
+///     what lies before it is as in the blind zone. If nothing is seen to, all of it is unknown
+///     again, or, before something closed that explains the view, overlooked.
+///   - f < s, and most pixels have no reading, over a wider angle than shadows have: anything may
+///     stand anywhere. All of it is unknown again, from the room the robot itself takes up on; but
+///     before something closed too near to be measured, which is what a robot sees that turns
+///     toward a wall beside it, overlooked.
+/// No floor in view says nothing for three bearings at either edge of what was ever in view: there
+/// pixels come and go.
 /// At the edges of each view, where bearings are in view in part, nothing is closed. Only seeing
 /// the floor opens what was closed. Free fades to overlooked, closed to unknown.
 ///
@@ -88,6 +92,8 @@ class ObstacleMemory {
   struct Ray;
 
   void open(const Instant& now, const Ray& ray);
+  /// Rays pass above it: what is unknown there is overlooked.
+  void overlook(const Instant& now, const Eigen::Vector2d& p_odom_m);
   void doubt(const Instant& now, const Ray& ray);
   /// Where along the doubtful part of a bearing something is closed; 0: nowhere.
   double closed_at_m(const Instant& now, const Ray& ray) const;

@@ -40,8 +40,8 @@ TEST_F(GlanceTest, FacesThePlaceStaysAWhileAndEnds) {
 
 TEST_F(GlanceTest, WhatIsInViewAnywayIsNotLookedAt) { EXPECT_FALSE(begin({0.3, 0.05})); }
 
-TEST_F(GlanceTest, NotTowardWhatStandsSoNearThatNoFloorIsSeen) {
-  obstacles_robot_m_ = {{0.0, -0.7}};
+TEST_F(GlanceTest, NotTowardWhatStandsSoNearThatItIsNotMeasured) {
+  obstacles_robot_m_ = {{0.0, -0.5}, {0.0, 0.7}};
   EXPECT_FALSE(begin({0.0, -0.3}));
   EXPECT_TRUE(begin({0.0, 0.3}));
 }

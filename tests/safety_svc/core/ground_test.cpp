@@ -22,16 +22,19 @@ Instant seen_later(Duration time) { return {kSeen.steady + time, kSeen.wall + ti
 
 /// A view of 21 bearings of 2 degrees, all alike.
 struct UniformView {
-  UniformView(double free, double unknown) : free_m(21, free), unknown_ratio(21, unknown) {}
+  UniformView(double free, double unknown, double obstacle = 0.0)
+      : free_m(21, free), unknown_ratio(21, unknown), obstacle_m(21, obstacle) {}
   FreeView view() const {
     return {.first_bearing_rad = -0.35,
             .bearing_step_rad = 0.035,
             .free_range_m = free_m,
             .unknown_ratio = unknown_ratio,
+            .obstacle_range_m = obstacle_m,
             .floor_seen_from_m = 0.7};
   }
   std::vector<double> free_m;
   std::vector<double> unknown_ratio;
+  std::vector<double> obstacle_m;
 };
 
 TEST(ObstacleMemory, TellsFreeClosedOverlookedAndUnknown) {
@@ -95,6 +98,40 @@ TEST(ObstacleMemory, BeforeSomethingClosedThatExplainsTheViewItOnlyOverlooks) {
   ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.9).view(), kOwn_m));
   EXPECT_EQ(memory.at(kSeen, {0.6, 0.0}).ground, Ground::kUnknown)
       << "what stands that far off would be measured";
+}
+
+TEST(ObstacleMemory, WhereSomethingIsSeenToHideTheFloorOnlyWhatLiesFromThereOnIsInDoubt) {
+  ObstacleMemory memory;
+  ASSERT_TRUE(memory.see(kSeen, {-0.6, 0.0, 0.0}, UniformView(2.4, 0.1).view(), kOwn_m));
+  ASSERT_EQ(memory.at(kSeen, {0.48, 0.0}).ground, Ground::kFree);
+  ASSERT_TRUE(memory.see(kSeen, {}, UniformView(0.0, 0.1, 0.62).view(), kOwn_m));
+  EXPECT_EQ(memory.at(kSeen, {0.48, 0.0}).ground, Ground::kFree);
+  EXPECT_EQ(memory.at(kSeen, {0.62, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(kSeen, {0.78, 0.0}).ground, Ground::kUnknown);
+  EXPECT_EQ(memory.at(kSeen, {1.2, 0.0}).ground, Ground::kFree);
+}
+
+TEST(ObstacleMemory, BeforeWhatIsSeenToHideTheFloorTheUnknownIsOverlooked) {
+  const auto ground_before = [](const FreeView& view, double range_m) {
+    ObstacleMemory memory;
+    EXPECT_TRUE(memory.see(kSeen, {}, view, kOwn_m));
+    return memory.at(kSeen, {range_m, 0.0}).ground;
+  };
+  const UniformView wall(0.0, 0.1, 0.62);
+  EXPECT_EQ(ground_before(wall.view(), 0.28), Ground::kOverlooked);
+  EXPECT_EQ(ground_before(wall.view(), 0.53), Ground::kOverlooked);
+  EXPECT_EQ(ground_before(wall.view(), 0.62), Ground::kUnknown);
+  const UniformView none(0.0, 0.1);
+  EXPECT_EQ(ground_before(none.view(), 0.28), Ground::kUnknown);
+  const UniformView near(0.0, 0.1, 0.78);
+  EXPECT_EQ(ground_before(near.view(), 0.28), Ground::kOverlooked);
+  const UniformView far(0.0, 0.1, 0.82);
+  EXPECT_EQ(ground_before(far.view(), 0.28), Ground::kUnknown) << "it does not hide the floor";
+  const UniformView dark(0.0, 0.9, 0.62);
+  EXPECT_EQ(ground_before(dark.view(), 0.28), Ground::kUnknown);
+  FreeView drop_off = wall.view();
+  drop_off.has_drop_off = true;
+  EXPECT_EQ(ground_before(drop_off, 0.28), Ground::kUnknown);
 }
 
 TEST(ObstacleMemory, InTheDarkBeforeSomethingTooNearToBeMeasuredItOnlyOverlooks) {
@@ -244,6 +281,7 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
   EXPECT_TRUE(sees([](auto&) {}));
   EXPECT_FALSE(sees([](auto& v) { v.free_range_m = {}; }));
   EXPECT_FALSE(sees([](auto& v) { v.unknown_ratio = v.unknown_ratio.first(20); }));
+  EXPECT_FALSE(sees([](auto& v) { v.obstacle_range_m = v.obstacle_range_m.first(20); }));
   EXPECT_FALSE(sees([](auto& v) { v.first_bearing_rad = -1.5; })) << "1.5 is too far";
   EXPECT_TRUE(sees([](auto& v) { v.first_bearing_rad = -1.49; }));
   EXPECT_TRUE(sees([](auto& v) { v.bearing_step_rad = 1.83 / 20; })) << "its last is at 1.48";
@@ -259,10 +297,13 @@ TEST(ObstacleMemory, RefusesWhatIsNoView) {
   bad = good;
   bad.unknown_ratio[3] = nan;
   EXPECT_FALSE(memory.see(kSeen, {}, bad.view(), kOwn_m));
+  bad = good;
+  bad.obstacle_m[3] = nan;
+  EXPECT_FALSE(memory.see(kSeen, {}, bad.view(), kOwn_m));
   const std::vector<double> many(1001, 0.5);
   const auto sees_many = [&](std::size_t bins) {
     return sees([&](auto& v) {
-      v.free_range_m = v.unknown_ratio = std::span(many).first(bins);
+      v.free_range_m = v.unknown_ratio = v.obstacle_range_m = std::span(many).first(bins);
       v.bearing_step_rad = 1e-4;
     });
   };

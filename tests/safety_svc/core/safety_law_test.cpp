@@ -123,6 +123,7 @@ RC_GTEST_PROP(SafetyLaw, TheNearerTheWallTheSlower, ()) {
                         .bearing_step_rad = 0.0175,
                         .free_range_m = free_m,
                         .unknown_ratio = unknown,
+                        .obstacle_range_m = free_m,
                         .floor_seen_from_m = 0.01};
     memory.overlook_round(now, {}, 0.45);
     const SafetyParams params;
@@ -206,6 +207,8 @@ RC_GTEST_PROP(SafetyLaw, NothingHostileCrashesOrMoves, ()) {
     const std::vector<double> unknown = {any_number(), any_number(), any_number()};
     view.free.free_range_m = free_m;
     view.free.unknown_ratio = unknown;
+    const std::vector<double> obstacle_m = {any_number(), any_number(), any_number()};
+    view.free.obstacle_range_m = obstacle_m;
     view.free.first_bearing_rad = any_number();
     view.free.bearing_step_rad = any_number();
     view.floor_normal = {any_number(), any_number(), any_number()};

@@ -14,7 +14,7 @@ constexpr double kSight_m = 5.0;
 
 }  // namespace
 
-DrivenWorld::DrivenWorld() : free_m_(kBins), unknown_(kBins, 1.0) {
+DrivenWorld::DrivenWorld() : free_m_(kBins), unknown_(kBins, 1.0), obstacle_m_(kBins) {
   params.floor_seen_from_m = kSeenFrom_m;
   world = World(params);
 }
@@ -28,7 +28,7 @@ CameraSetup DrivenWorld::camera() {
           .height_px = 480};
 }
 
-double DrivenWorld::free_range_m(double bearing_rad) const {
+double DrivenWorld::sight_m(double bearing_rad) const {
   const double heading_rad = T_odom_robot.heading_rad + bearing_rad;
   const Eigen::Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
   double nearest_m = kSight_m;
@@ -41,7 +41,7 @@ double DrivenWorld::free_range_m(double bearing_rad) const {
       nearest_m = std::min(nearest_m, along_m - std::sqrt(rest_sq));
     }
   }
-  return nearest_m < kSeenFrom_m / std::cos(bearing_rad) ? 0.0 : nearest_m;
+  return nearest_m;
 }
 
 FloorView DrivenWorld::view() const {
@@ -53,7 +53,8 @@ FloorView DrivenWorld::view() const {
   seen.free = {.first_bearing_rad = -45 * kDegree_rad,
                .bearing_step_rad = kDegree_rad,
                .free_range_m = free_m_,
-               .unknown_ratio = unknown_};
+               .unknown_ratio = unknown_,
+               .obstacle_range_m = obstacle_m_};
   return seen;
 }
 
@@ -75,12 +76,14 @@ void DrivenWorld::hear() {
       const int degrees = bin - kBins / 2;
       const auto index = static_cast<std::size_t>(bin);
       const bool is_in_view = std::abs(degrees) <= kHalfView;
-      free_m_[index] = is_in_view ? free_range_m(degrees * kDegree_rad) : 0.0;
-      unknown_[index] = is_in_view ? 0.1 : 1.0;
-      if (is_in_view && clearance_m() < dark_within_m) {
-        free_m_[index] = 0.0;
-        unknown_[index] = 1.0;
-      }
+      free_m_[index] = obstacle_m_[index] = 0.0;
+      unknown_[index] = 1.0;
+      if (!is_in_view || clearance_m() < dark_within_m) continue;
+      const double bearing_rad = degrees * kDegree_rad;
+      const double nearest_m = sight_m(bearing_rad);
+      if (nearest_m >= kSeenFrom_m / std::cos(bearing_rad)) free_m_[index] = nearest_m;
+      if (nearest_m < kSight_m && nearest_m > kNearestReading_m) obstacle_m_[index] = nearest_m;
+      unknown_[index] = 0.1;
     }
     if (has_frames) (void)world.hear_frame(now_, now_.wall + stamp_ahead, camera());
     (void)world.hear_view(now_, view());

@@ -54,13 +54,15 @@ class DrivenWorld {
 
  private:
   void hear();
-  double free_range_m(double bearing_rad) const;
+  /// To the nearest disc along the bearing, or where sight ends.
+  double sight_m(double bearing_rad) const;
 
   Instant now_{std::chrono::hours(1), time_from_utime(1'700'000'000'000'000)};
   int ticks_ = 0;
   Request moved_;  // over the last tick
   std::vector<double> free_m_;
   std::vector<double> unknown_;
+  std::vector<double> obstacle_m_;
 };
 
 }  // namespace roomwise::safety
