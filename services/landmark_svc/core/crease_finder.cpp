@@ -56,11 +56,14 @@ void CreaseFinder::reserve(std::size_t points) {
 std::optional<CreaseFinder::Side> CreaseFinder::side_of(std::size_t at, int step,
                                                         double residual_max_quanta,
                                                         const CreaseParams& params,
-                                                        RejectCounts& rejected) const {
+                                                        RejectCounts& rejected) {
   constexpr std::size_t kFewest = 4;
   bool is_long_enough = false;
+  std::size_t& longest = longest_end_[step < 0 ? 0 : 1];
+  longest = lines_.reach(at, step, params.side_max_m, longest);
+  std::size_t end = longest;
   for (double length_m = params.side_max_m; length_m >= params.side_min_m; length_m *= kShorter) {
-    const std::size_t end = lines_.reach(at, step, length_m);
+    end = lines_.reach(at, step, length_m, end);
     const std::size_t columns = step < 0 ? at - end : end - at;
     if (columns < kFewest + kSkipped) break;
     if ((lines_.p_m(end) - lines_.p_m(at)).norm() < params.side_min_m) break;
@@ -75,7 +78,7 @@ std::optional<CreaseFinder::Side> CreaseFinder::side_of(std::size_t at, int step
 
 bool CreaseFinder::judge(const VirtualScan& scan, std::size_t at, const DisparityTable& table,
                          const CreaseParams& params, Candidate& candidate,
-                         RejectCounts& rejected) const {
+                         RejectCounts& rejected) {
   const double quantum_m = table.quantum_m(scan.points()[at].along_m);
   const double residual_max_quanta =
       std::hypot(params.residual_max_quanta, params.residual_max_m / quantum_m);
@@ -160,6 +163,7 @@ void CreaseFinder::find(const VirtualScan& scan, const FloorView& floor,
                         RejectCounts& rejected) {
   const auto& points = scan.points();
   candidates_.clear();
+  longest_end_ = {};
   lines_.prepare(scan, table);
   const double suppress_px = params.suppress_px * width_px / 640.0;
   for (std::size_t at = 0; at < points.size(); ++at) {

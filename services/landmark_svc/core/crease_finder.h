@@ -61,9 +61,9 @@ class CreaseFinder {
 
   /// The longest straight side of a crease at `at`; none if it is too short.
   std::optional<Side> side_of(std::size_t at, int step, double residual_max_quanta,
-                              const CreaseParams& params, RejectCounts& rejected) const;
+                              const CreaseParams& params, RejectCounts& rejected);
   bool judge(const VirtualScan& scan, std::size_t at, const DisparityTable& table,
-             const CreaseParams& params, Candidate& candidate, RejectCounts& rejected) const;
+             const CreaseParams& params, Candidate& candidate, RejectCounts& rejected);
   bool is_round(const Candidate& candidate, const DisparityTable& table,
                 const CreaseParams& params) const;
   void append(const Candidate& candidate, const VirtualScan& scan, const FloorView& floor,
@@ -72,6 +72,8 @@ class CreaseFinder {
 
   ScanLines lines_;
   std::vector<Candidate> candidates_;
+  /// Of the point looked at last, left and right: neighbours' sides end at nearly the same place.
+  std::array<std::size_t, 2> longest_end_{};
 };
 
 }  // namespace roomwise::landmark

@@ -111,15 +111,19 @@ ScanLine ScanLines::line(std::size_t begin, std::size_t end) const {
   return line;
 }
 
-std::size_t ScanLines::reach(std::size_t from, int step, double length_m) const {
-  std::size_t at = from;
-  while (true) {
-    if (step < 0 ? at == 0 : at + 1 == points_m_.size()) return at;
+std::size_t ScanLines::reach(std::size_t from, int step, double length_m, std::size_t about) const {
+  const auto is_within = [&](std::size_t at) {
+    return (points_m_[at] - points_m_[from]).squaredNorm() <= length_m * length_m;
+  };
+  const bool is_ahead = step < 0 ? about < from : about > from && about < points_m_.size();
+  std::size_t at = is_ahead && piece_[about] == piece_[from] ? about : from;
+  while (!is_within(at)) at = step < 0 ? at + 1 : at - 1;
+  while (step < 0 ? at != 0 : at + 1 != points_m_.size()) {
     const std::size_t next = step < 0 ? at - 1 : at + 1;
-    if (piece_[next] != piece_[from]) return at;
-    if ((points_m_[next] - points_m_[from]).squaredNorm() > length_m * length_m) return at;
+    if (piece_[next] != piece_[from] || !is_within(next)) break;
     at = next;
   }
+  return at;
 }
 
 double circle_rms_m(const ScanLines& scan, std::size_t first, std::size_t last) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace roomwise::landmark {
 namespace {
@@ -17,6 +18,28 @@ struct RowLine {
   float at(int u_px) const { return constant + per_column * static_cast<float>(u_px); }
 };
 
+/// What of the way to the floor readings of the slice are at: at least and at most.
+struct Slice {
+  float least;
+  float most;
+};
+
+/// Marks the columns of a row with a good reading within the slice; they may be none of the slice
+/// by the rounding of a float. No branch and no table: compilers do many columns at once.
+void mark_within(const std::uint16_t* steps, const DisparityTable& table, const RowLine& floor,
+                 const Slice& slice, int u_begin_px, std::span<std::uint8_t> is_within) {
+  const int nearest = table.smallest_good_step();
+  const int farthest = table.largest_good_step();
+  for (std::size_t i = 0; i < is_within.size(); ++i) {
+    const int step = steps[i];
+    const float ratio = static_cast<float>(step) * floor.at(u_begin_px + static_cast<int>(i));
+    is_within[i] = static_cast<std::uint8_t>(static_cast<int>(step >= nearest) &
+                                             static_cast<int>(step <= farthest) &
+                                             static_cast<int>(ratio >= slice.least) &
+                                             static_cast<int>(ratio <= slice.most));
+  }
+}
+
 /// g . (x, y, 1) along row v.
 RowLine row_line(const Eigen::Vector3d& g, const PinholeCamera& camera, int v_px) {
   const double y = (v_px - camera.cy_px) / camera.fy_px;
@@ -29,6 +52,7 @@ RowLine row_line(const Eigen::Vector3d& g, const PinholeCamera& camera, int v_px
 void VirtualScan::reserve(int width_px) {
   columns_.reserve(static_cast<std::size_t>(width_px));
   points_.reserve(static_cast<std::size_t>(width_px));
+  is_within_.reserve(static_cast<std::size_t>(width_px));
 }
 
 void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
@@ -68,20 +92,25 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
   const Eigen::Vector3d left = -floor.down_camera.cross(along);
   forward_ = mounted_ahead.head<2>().normalized();
   origin_m_ = T_robot_camera.translation().head<2>();
-  const Eigen::Vector3d gradient = table.quanta_m() / floor.height_m * floor.down_camera;
-  const auto low = static_cast<float>(1.0 - params.height_low_m / floor.height_m);
-  const auto high = static_cast<float>(1.0 - params.height_high_m / floor.height_m);
+  // A reading's share of the way to the floor along its ray, by its step.
+  const Eigen::Vector3d gradient = table.depth_m(1) / floor.height_m * floor.down_camera;
+  const Slice slice{static_cast<float>(1.0 - params.height_high_m / floor.height_m),
+                    static_cast<float>(1.0 - params.height_low_m / floor.height_m)};
 
   columns_.assign(static_cast<std::size_t>(region.width_px()), Clusters{});
+  is_within_.assign(static_cast<std::size_t>(region.width_px()), 0);
   const int step = std::max(1, params.row_step_px * depth.height_px / 480);
   constexpr float kToQuanta = 1.0F / DisparityTable::kPartsPerQuantum;
   for (int v = region.v_begin_px; v < region.v_end_px; v += step) {
-    const RowLine floor_quanta = row_line(gradient, camera, v);
     const RowLine along_ratio = row_line(along, camera, v);
+    const std::uint16_t* const steps =
+        depth.steps.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width_px) +
+        region.u_begin_px;
+    mark_within(steps, table, row_line(gradient, camera, v), slice, region.u_begin_px, is_within_);
     for (int u = region.u_begin_px; u < region.u_end_px; ++u) {
-      const float quanta = static_cast<float>(table.parts(depth.at(u, v))) * kToQuanta;
-      const float of_floor = floor_quanta.at(u);
-      if (quanta <= 0.0F || of_floor > low * quanta || of_floor < high * quanta) continue;
+      const int i = u - region.u_begin_px;
+      if (is_within_[static_cast<std::size_t>(i)] == 0) continue;
+      const float quanta = static_cast<float>(table.parts(steps[i])) * kToQuanta;
       const float ratio = along_ratio.at(u);
       if (ratio < 0.1F) continue;
       add(columns_[static_cast<std::size_t>(u - region.u_begin_px)], quanta / ratio,

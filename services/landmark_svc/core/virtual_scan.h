@@ -66,6 +66,7 @@ class VirtualScan {
 
   static void add(Clusters& clusters, float quanta, std::int16_t v_px);
 
+  std::vector<std::uint8_t> is_within_;  // of a row's columns: a reading within the slice
   std::vector<Clusters> columns_;
   std::vector<ScanPoint> points_;
   Eigen::Vector2d forward_{1.0, 0.0};

@@ -48,11 +48,23 @@ TEST(ScanLines, ReachEndsAtAStepAndAtTheLength) {
   const ScanLines lines =
       lines_of(scan_of_plan([](double x) { return x > 0.1 ? 1.5 : 2.0; }, 0.0, 1));
   const std::size_t at = 200;  // right of the middle: the far part
-  const std::size_t left = lines.reach(at, -1, 5.0);
+  const std::size_t left = lines.reach(at, -1, 5.0, at);
   EXPECT_NEAR(lines.p_m(left).y() / lines.p_m(left).x(), 0.1, 0.004);
-  EXPECT_EQ(lines.reach(at, 1, 5.0), static_cast<std::size_t>(kPlanWidth_px - 1));
-  const std::size_t near = lines.reach(at, 1, 0.2);
+  EXPECT_EQ(lines.reach(at, 1, 5.0, at), static_cast<std::size_t>(kPlanWidth_px - 1));
+  const std::size_t near = lines.reach(at, 1, 0.2, at);
   EXPECT_NEAR((lines.p_m(near) - lines.p_m(at)).norm(), 0.2, 0.01);
+}
+
+TEST(ScanLines, WhereItIsLookedForFromDoesNotChangeWhatIsReached) {
+  const ScanLines lines =
+      lines_of(scan_of_plan([](double x) { return x > 0.1 ? 1.5 : 2.0; }, 0.0, 1));
+  const std::size_t at = 200;
+  for (const int step : {-1, 1}) {
+    const std::size_t end = lines.reach(at, step, 0.2, at);
+    for (std::size_t about = 0; about < kPlanWidth_px + 5; about += 3) {
+      EXPECT_EQ(lines.reach(at, step, 0.2, about), end) << about;
+    }
+  }
 }
 
 TEST(ScanLines, ACircleFitsACircleAndNotACorner) {
