@@ -6,6 +6,8 @@
 #include <cstring>
 #include <ranges>
 
+#include "common/image/player_words.h"
+
 namespace roomwise {
 namespace {
 
@@ -36,6 +38,19 @@ bool is_centre(double c_px, int side_px) { return c_px >= -side_px && c_px <= 2.
 bool is_camera(const PinholeCamera& camera, int width_px, int height_px) {
   return is_focal_length(camera.fx_px) && is_focal_length(camera.fy_px) &&
          is_centre(camera.cx_px, width_px) && is_centre(camera.cy_px, height_px);
+}
+
+// `bytes` are two for each of the image's pixels.
+void split_depth_and_players(std::span<const std::uint8_t> bytes, RgbdFrame& frame) {
+  std::vector<std::uint16_t>& steps = frame.depth.steps;
+  steps.resize(bytes.size() / sizeof(std::uint16_t));
+  std::memcpy(steps.data(), bytes.data(), bytes.size());
+  frame.players.resize(steps.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const DepthAndPlayer pixel = unpack_player16(steps[i]);
+    steps[i] = pixel.depth_steps;
+    frame.players[i] = pixel.player;
+  }
 }
 
 FrameResult decode_pose(const kinect_frame_t& message, Eigen::Isometry3d& T_robot_camera) {
@@ -89,13 +104,15 @@ FrameResult FrameDecoder::decode(const kinect_frame_t& message, RgbdFrame& frame
   if (const auto pose = decode_pose(message, frame.T_robot_camera); pose != FrameResult::kOk) {
     return pose;
   }
-  if (const auto depth = decode_depth(message, frame.depth); depth != FrameResult::kOk) {
+  if (const auto depth = decode_depth(message, frame); depth != FrameResult::kOk) {
     return depth;
   }
   return decode_color(message, frame);
 }
 
-FrameResult FrameDecoder::decode_depth(const kinect_frame_t& message, DepthImage& depth) {
+FrameResult FrameDecoder::decode_depth(const kinect_frame_t& message, RgbdFrame& frame) {
+  DepthImage& depth = frame.depth;
+  frame.players.clear();
   if (!(message.depth_unit_m > 0.0 && message.depth_unit_m <= kDepthUnitMax_m)) {
     return FrameResult::kBadDepthUnit;
   }
@@ -108,6 +125,10 @@ FrameResult FrameDecoder::decode_depth(const kinect_frame_t& message, DepthImage
   if (message.depth_encoding == kinect_frame_t::DEPTH_RAW16 && bytes.size() == raw_size) {
     depth.steps.resize(count);
     std::memcpy(depth.steps.data(), bytes.data(), raw_size);
+    return FrameResult::kOk;
+  }
+  if (message.depth_encoding == kinect_frame_t::DEPTH_PLAYER16 && bytes.size() == raw_size) {
+    split_depth_and_players(bytes, frame);
     return FrameResult::kOk;
   }
   if (message.depth_encoding != kinect_frame_t::DEPTH_PDZ16) return FrameResult::kBadDepth;

@@ -34,14 +34,15 @@ class FrameDecoder {
 
   /// Decodes `message` into `frame`, reusing its memory. On failure `frame` is unspecified.
   /// With kSkip the colour part is not even looked at; then, or if the message has no colour,
-  /// frame.color is empty and frame.color_camera all zero. The quaternion is normalised.
+  /// frame.color is empty and frame.color_camera all zero. Unless the depth is DEPTH_PLAYER16,
+  /// frame.players is empty. The quaternion is normalised.
   FrameResult decode(const kinect_frame_t& message, RgbdFrame& frame);
 
   /// Decodes the colour part alone, as decode() does; the rest of `frame` stays as it is.
   FrameResult decode_color(const kinect_frame_t& message, RgbdFrame& frame);
 
  private:
-  FrameResult decode_depth(const kinect_frame_t& message, DepthImage& depth);
+  FrameResult decode_depth(const kinect_frame_t& message, RgbdFrame& frame);
   bool decode_pixels(const kinect_frame_t& message, std::span<std::uint8_t> rgb);
 
   ColorUse color_use_;

@@ -1,12 +1,35 @@
 #include "common/frames/frame_encoder.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <stdexcept>
 
+#include "common/image/player_words.h"
+
 namespace roomwise {
 
 static_assert(std::endian::native == std::endian::little, "DEPTH_RAW16 is copied as it lies");
+
+namespace {
+
+void describe_depth(const DepthImage& depth, std::int8_t depth_encoding, kinect_frame_t& message) {
+  message.depth_encoding = depth_encoding;
+  message.depth_width_px = depth.width_px;
+  message.depth_height_px = depth.height_px;
+  message.depth_unit_m = depth.unit_m;
+  message.depth_size = static_cast<std::int32_t>(message.depth_data.size());
+}
+
+void require_size(const DepthImage& depth) {
+  const auto sides =
+      static_cast<std::size_t>(depth.width_px) * static_cast<std::size_t>(depth.height_px);
+  if (depth.steps.empty() || depth.size() != sides) {
+    throw std::invalid_argument("depth image: size does not match its values");
+  }
+}
+
+}  // namespace
 
 void FrameEncoder::encode_depth(const DepthImage& depth, std::int8_t depth_encoding,
                                 kinect_frame_t& message) {
@@ -14,21 +37,32 @@ void FrameEncoder::encode_depth(const DepthImage& depth, std::int8_t depth_encod
   if (depth_encoding == kinect_frame_t::DEPTH_PDZ16) {
     pdz16_.encode(steps, depth.width_px, depth.height_px, message.depth_data);
   } else if (depth_encoding == kinect_frame_t::DEPTH_RAW16) {
-    const auto sides =
-        static_cast<std::size_t>(depth.width_px) * static_cast<std::size_t>(depth.height_px);
-    if (steps.empty() || steps.size() != sides) {
-      throw std::invalid_argument("depth image: size does not match its values");
-    }
+    require_size(depth);
     message.depth_data.resize(steps.size_bytes());
     std::memcpy(message.depth_data.data(), steps.data(), steps.size_bytes());
   } else {
     throw std::invalid_argument("unknown depth encoding " + std::to_string(depth_encoding));
   }
-  message.depth_encoding = depth_encoding;
-  message.depth_width_px = depth.width_px;
-  message.depth_height_px = depth.height_px;
-  message.depth_unit_m = depth.unit_m;
-  message.depth_size = static_cast<std::int32_t>(message.depth_data.size());
+  describe_depth(depth, depth_encoding, message);
+}
+
+void FrameEncoder::encode_depth_and_players(const DepthImage& depth,
+                                            std::span<const std::uint8_t> players,
+                                            kinect_frame_t& message) {
+  require_size(depth);
+  if (players.size() != depth.size()) {
+    throw std::invalid_argument("players: not one for each depth");
+  }
+  if (std::ranges::max(depth.steps) > kPlayer16DepthMax_steps ||
+      std::ranges::max(players) > kPlayer16PlayerMax) {
+    throw std::invalid_argument("a depth above 13 bits or a player above 3");
+  }
+  message.depth_data.resize(2 * depth.size());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const std::uint16_t word = pack_player16({.depth_steps = depth.steps[i], .player = players[i]});
+    std::memcpy(&message.depth_data[2 * i], &word, sizeof word);
+  }
+  describe_depth(depth, kinect_frame_t::DEPTH_PLAYER16, message);
 }
 
 void FrameEncoder::encode_color(const ColorImage& color, std::int8_t color_encoding,

@@ -48,7 +48,8 @@ struct RgbdFrame {
   std::int64_t utime = 0;  ///< middle of the exposure, us since the epoch
   std::int64_t seq = 0;
   DepthImage depth;
-  bool depth_registered = false;  ///< depth pixels lie on the colour image's pixels
+  std::vector<std::uint8_t> players;  ///< height x width, 0 nobody; empty where a frame has none
+  bool depth_registered = false;      ///< depth pixels lie on the colour image's pixels
   PinholeCamera depth_camera;
   ColorImage color;
   PinholeCamera color_camera;

@@ -260,6 +260,87 @@ TEST(FrameDecoder, EveryResultHasItsOwnCounter) {
   EXPECT_TRUE(names.contains("frame_bad_depth"));
 }
 
+kinect_frame_t player_message(const DepthImage& depth, const std::vector<std::uint8_t>& players) {
+  kinect_frame_t message = message_of(depth, kinect_frame_t::DEPTH_RAW16);
+  FrameEncoder().encode_depth_and_players(depth, players, message);
+  return message;
+}
+
+RC_GTEST_PROP(FramePlayers, AnyDepthsAndPlayersComeBack, ()) {
+  const int width_px = *rc::gen::inRange(16, 40);
+  const int height_px = *rc::gen::inRange(16, 40);
+  const auto count = static_cast<std::size_t>(width_px * height_px);
+  const auto depths = rc::gen::inRange<std::uint16_t>(0, 8192);
+  const auto indices = rc::gen::inRange<std::uint8_t>(0, 8);
+  const DepthImage depth{width_px, height_px, 0.001,
+                         *rc::gen::container<std::vector<std::uint16_t>>(count, depths)};
+  const auto players = *rc::gen::container<std::vector<std::uint8_t>>(count, indices);
+  RgbdFrame frame;
+  RC_ASSERT(FrameDecoder(ColorUse::kSkip).decode(player_message(depth, players), frame) ==
+            FrameResult::kOk);
+  RC_ASSERT(frame.depth.steps == depth.steps);
+  RC_ASSERT(frame.players == players);
+}
+
+TEST(FramePlayers, TheWordIsDepthAboveThreeBitsOfPlayerLowByteFirst) {
+  DepthImage depth = ramp(32, 24);
+  std::vector<std::uint8_t> players(depth.size(), 0);
+  depth.steps[0] = 8191;
+  depth.steps[1] = 1000;
+  players[1] = 5;
+  const kinect_frame_t message = player_message(depth, players);
+  EXPECT_EQ(message.depth_encoding, 2);
+  EXPECT_EQ(message.depth_size, 2 * 32 * 24);
+  EXPECT_EQ(message.depth_data[0], 0xF8);
+  EXPECT_EQ(message.depth_data[1], 0xFF);
+  EXPECT_EQ(message.depth_data[2], (1000 * 8 + 5) & 0xFF);
+  EXPECT_EQ(message.depth_data[3], (1000 * 8 + 5) >> 8);
+}
+
+TEST(FramePlayers, AFrameWithoutPlayersEmptiesThoseOfTheOneBefore) {
+  const DepthImage depth = ramp(32, 24);
+  for (const std::int8_t encoding : {kinect_frame_t::DEPTH_RAW16, kinect_frame_t::DEPTH_PDZ16}) {
+    FrameDecoder decoder(ColorUse::kSkip);
+    RgbdFrame frame;
+    const std::vector<std::uint8_t> players(depth.size(), 3);
+    ASSERT_EQ(decoder.decode(player_message(depth, players), frame), FrameResult::kOk);
+    ASSERT_EQ(frame.players, players);
+    ASSERT_EQ(decoder.decode(message_of(depth, encoding), frame), FrameResult::kOk);
+    EXPECT_TRUE(frame.players.empty());
+    EXPECT_EQ(frame.depth.steps, depth.steps);
+  }
+}
+
+TEST(FramePlayers, AreRefusedWhereTheWordsAreNotOfTheImagesSize) {
+  const DepthImage depth = ramp(32, 24);
+  const kinect_frame_t good = player_message(depth, std::vector<std::uint8_t>(depth.size(), 1));
+  kinect_frame_t cut = good;
+  cut.depth_data.pop_back();
+  kinect_frame_t wider = good;
+  wider.depth_width_px = 33;
+  kinect_frame_t empty = good;
+  empty.depth_data.clear();
+  for (const kinect_frame_t& bad : {cut, wider, empty}) {
+    EXPECT_EQ(decode(bad), FrameResult::kBadDepth);
+  }
+}
+
+TEST(FramePlayers, WhatHasNoPlaceInAWordIsRefusedNotCutOff) {
+  FrameEncoder encoder;
+  kinect_frame_t message{};
+  DepthImage depth = ramp(32, 24);
+  std::vector<std::uint8_t> players(depth.size(), 7);
+  EXPECT_NO_THROW(encoder.encode_depth_and_players(depth, players, message));
+  players.back() = 8;
+  EXPECT_THROW(encoder.encode_depth_and_players(depth, players, message), std::invalid_argument);
+  players.back() = 0;
+  depth.steps.back() = 8192;
+  EXPECT_THROW(encoder.encode_depth_and_players(depth, players, message), std::invalid_argument);
+  depth.steps.back() = 8191;
+  players.pop_back();
+  EXPECT_THROW(encoder.encode_depth_and_players(depth, players, message), std::invalid_argument);
+}
+
 TEST(FrameEncoder, RefusesWhatNoDecoderKnows) {
   FrameEncoder encoder;
   kinect_frame_t message{};
