@@ -49,10 +49,12 @@ final class FramePictures {
         return picture;
     }
 
+    /** Depths of DEPTH_RAW16, and of DEPTH_PLAYER16 without the player's index below them. */
     private static int[] raw(kinect_frame_t frame) {
         int[] steps = new int[frame.depth_width_px * frame.depth_height_px];
         ByteBuffer data = ByteBuffer.wrap(frame.depth_data).order(ByteOrder.LITTLE_ENDIAN);
-        for (int i = 0; i < steps.length; i++) steps[i] = data.getShort(2 * i) & 0xffff;
+        int below = frame.depth_encoding == kinect_frame_t.DEPTH_PLAYER16 ? 3 : 0;
+        for (int i = 0; i < steps.length; i++) steps[i] = (data.getShort(2 * i) & 0xffff) >> below;
         return steps;
     }
 }

@@ -31,7 +31,10 @@ function depthOf(m: kinect_frame_t): Uint16Array {
   }
   if (m.depth_encoding === 1) return decodePdz16(m.depth_data, m.depth_width_px, m.depth_height_px);
   if (m.depth_data.length !== 2 * size) throw new RangeError("a depth image of another size");
-  return new Uint16Array(m.depth_data.slice().buffer);
+  const words = new Uint16Array(m.depth_data.slice().buffer);
+  if (m.depth_encoding === 0) return words;
+  if (m.depth_encoding === 2) return words.map((word) => word >> 3); // the rest says whose it is
+  throw new RangeError(`a depth image of unknown encoding ${m.depth_encoding}`);
 }
 
 async function colorOf(m: kinect_frame_t): Promise<ImageBitmap | null> {
