@@ -24,13 +24,21 @@ FrameToMessage::FrameToMessage(const kinect::KinectParams& params)
 void FrameToMessage::convert(CapturedFrame& frame, kinect_frame_t& message) {
   const bool own = params_.use_own_intrinsics;
   const int steps_per_mm = frame.depth.unit_m < 5e-4 ? 10 : 1;
-  if (params_.depth_words == "depth_and_player") kinect::unpack_depths(frame.depth.steps);
+  const bool has_players = params_.depth_words == "depth_and_player";
+  if (has_players) {
+    players_.resize(frame.depth.size());
+    kinect::split_players(frame.depth.steps, players_);
+  }
   kinect::drop_depths_above(std::min(params_.depth_max_mm * steps_per_mm, 65534),
                             frame.depth.steps);
   message.utime = frame.utime;
   message.device_time_us = frame.device_time_us;
   message.depth_registered = frame.depth_registered ? 1 : 0;
-  encoder_.encode_depth(frame.depth, depth_encoding_, message);
+  if (has_players) {
+    encoder_.encode_depth_and_players(frame.depth, players_, message);
+  } else {
+    encoder_.encode_depth(frame.depth, depth_encoding_, message);
+  }
   encoder_.encode_color(frame.color, color_encoding_, params_.jpeg_quality, message);
   encode_depth_camera(own ? own_depth_camera_ : frame.depth_camera, message);
   encode_color_camera(own ? own_color_camera_ : frame.color_camera, message);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "common/frames/frame_encoder.h"
 #include "roomwise/kinect_frame_t.hpp"
@@ -28,6 +29,7 @@ class FrameToMessage {
   PinholeCamera own_color_camera_;
   Eigen::Isometry3d T_robot_camera_;
   FrameEncoder encoder_;
+  std::vector<std::uint8_t> players_;  // of the frame in hand
 };
 
 /// A thread that takes captured frames and turns the newest into a message.

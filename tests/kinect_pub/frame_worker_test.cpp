@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/frames/frame_decoder.h"
-#include "services/kinect_pub/core/depth_words.h"
+#include "common/image/player_words.h"
 #include "tests/kinect_pub/support/made_frames.h"
 
 namespace roomwise {
@@ -38,23 +38,28 @@ TEST(FrameToMessage, MessageDecodesToTheFrameItWasMadeOf) {
     params.color_encoding = "rgb8";
     const RgbdFrame decoded = through(captured(made), params);
     EXPECT_EQ(decoded.depth.steps, made.depth.steps);
+    EXPECT_TRUE(decoded.players.empty());
     EXPECT_EQ(decoded.color.rgb, made.color.rgb);
     EXPECT_EQ(decoded.utime, 1'700'000'000'000'000);
     EXPECT_EQ(decoded.color_camera.fx_px, 525.0);
   }
 }
 
-TEST(FrameToMessage, PackedWordsBecomeTheirDepths) {
+TEST(FrameToMessage, PackedWordsBecomeTheirDepthsAndPlayers) {
   const RgbdFrame made = made_frame(2);
   CapturedFrame frame = captured(made);
-  for (std::uint16_t& word : frame.depth.steps) {
-    word = kinect::pack_depth({.depth_mm = std::min<std::uint16_t>(word, 8191), .player = 5});
+  for (std::size_t i = 0; i < made.depth.size(); ++i) {
+    frame.depth.steps[i] =
+        pack_player16({.depth_steps = std::min<std::uint16_t>(made.depth.steps[i], 8191),
+                       .player = static_cast<std::uint8_t>(i % 8)});
   }
   kinect::KinectParams params;
   params.depth_words = "depth_and_player";
   const RgbdFrame decoded = through(frame, params);
+  ASSERT_EQ(decoded.players.size(), made.depth.size());
   for (std::size_t i = 0; i < made.depth.size(); ++i) {
     ASSERT_EQ(decoded.depth.steps[i], std::min<std::uint16_t>(made.depth.steps[i], 8191));
+    ASSERT_EQ(decoded.players[i], i % 8);
   }
 }
 

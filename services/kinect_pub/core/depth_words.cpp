@@ -1,9 +1,17 @@
 #include "services/kinect_pub/core/depth_words.h"
 
+#include <cstddef>
+
+#include "common/image/player_words.h"
+
 namespace roomwise::kinect {
 
-void unpack_depths(std::span<std::uint16_t> words) {
-  for (std::uint16_t& word : words) word = unpack_depth(word).depth_mm;
+void split_players(std::span<std::uint16_t> words, std::span<std::uint8_t> players) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const DepthAndPlayer pixel = unpack_player16(words[i]);
+    words[i] = pixel.depth_steps;
+    players[i] = pixel.player;
+  }
 }
 
 void drop_depths_above(int max_mm, std::span<std::uint16_t> depths_mm) {

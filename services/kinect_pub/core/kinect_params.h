@@ -20,7 +20,7 @@ struct KinectParams {
   double exposure_delay_s = 0.0;       ///< least time from mid-exposure to arrival, if measured
   bool loop_recording = false;         ///< play a recording again and again
   bool recording_is_registered = false;  ///< a recording does not say
-  std::string depth_encoding = "pdz16";  ///< or "raw16"
+  std::string depth_encoding = "pdz16";  ///< or "raw16"; frames with players are always player16
   std::string color_encoding = "jpeg";   ///< or "rgb8"
   int jpeg_quality = 85;
   bool use_own_intrinsics = false;  ///< false: from the fields of view the device states

@@ -4,37 +4,36 @@
 
 #include <vector>
 
+#include "common/image/player_words.h"
+
 namespace roomwise::kinect {
 namespace {
 
 TEST(DepthWords, EachBitOfAWordIsWhereItBelongs) {
   for (unsigned bit = 0; bit < 16; ++bit) {
     const auto word = static_cast<std::uint16_t>(1U << bit);
-    const DepthAndPlayer pixel = unpack_depth(word);
-    EXPECT_EQ(pixel.depth_mm, bit < 3 ? 0U : 1U << (bit - 3)) << "bit " << bit;
+    const DepthAndPlayer pixel = unpack_player16(word);
+    EXPECT_EQ(pixel.depth_steps, bit < 3 ? 0U : 1U << (bit - 3)) << "bit " << bit;
     EXPECT_EQ(pixel.player, bit < 3 ? 1U << bit : 0U) << "bit " << bit;
   }
 }
 
 TEST(DepthWords, EveryWordComesBackFromItsParts) {
   for (unsigned word = 0; word <= 0xFFFF; ++word) {
-    const DepthAndPlayer pixel = unpack_depth(static_cast<std::uint16_t>(word));
-    ASSERT_LE(pixel.depth_mm, 8191);
+    const DepthAndPlayer pixel = unpack_player16(static_cast<std::uint16_t>(word));
+    ASSERT_LE(pixel.depth_steps, 8191);
     ASSERT_LE(pixel.player, 7);
-    ASSERT_EQ(pack_depth(pixel), word);
+    ASSERT_EQ(pack_player16(pixel), word);
   }
 }
 
-TEST(DepthWords, PackingCutsWhatHasNoRoom) {
-  EXPECT_EQ(unpack_depth(pack_depth({.depth_mm = 0x2000 | 5, .player = 8 | 3})),
-            (DepthAndPlayer{.depth_mm = 5, .player = 3}));
-}
-
-TEST(DepthWords, UnpackingAnImageLeavesDepthsAlone) {
+TEST(DepthWords, AnImageIsSplitIntoDepthsAndPlayers) {
   std::vector<std::uint16_t> words = {
-      0, 7, 8, 0xFFFF, pack_depth({1220, 2}), pack_depth({3810, 0})};
-  unpack_depths(words);
+      0, 7, 8, 0xFFFF, pack_player16({1220, 2}), pack_player16({3810, 0})};
+  std::vector<std::uint8_t> players(words.size());
+  split_players(words, players);
   EXPECT_EQ(words, (std::vector<std::uint16_t>{0, 0, 1, 8191, 1220, 3810}));
+  EXPECT_EQ(players, (std::vector<std::uint8_t>{0, 7, 0, 7, 2, 0}));
 }
 
 TEST(DepthWords, DepthsAboveTheLimitAreNoReadings) {
