@@ -55,7 +55,7 @@ void FrameEncoder::encode_depth_and_players(const DepthImage& depth,
   }
   if (std::ranges::max(depth.steps) > kPlayer16DepthMax_steps ||
       std::ranges::max(players) > kPlayer16PlayerMax) {
-    throw std::invalid_argument("a depth above 13 bits or a player above 3");
+    throw std::invalid_argument("a depth above 13 bits or a player above 3 bits");
   }
   message.depth_data.resize(2 * depth.size());
   for (std::size_t i = 0; i < depth.size(); ++i) {

@@ -22,6 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   };
   if (frame.depth.size() != pixels(frame.depth.width_px, frame.depth.height_px) ||
+      (!frame.players.empty() && frame.players.size() != frame.depth.size()) ||
       frame.color.rgb.size() != 3 * pixels(frame.color.width_px, frame.color.height_px) ||
       !frame.T_robot_camera.matrix().allFinite()) {
     __builtin_trap();

@@ -56,7 +56,12 @@ DepthImage depth_image(bool few_values) {
 kinect_frame_t frame_message(std::int8_t depth_encoding, std::int8_t color_encoding) {
   kinect_frame_t message{};
   FrameEncoder encoder;
-  encoder.encode_depth(depth_image(true), depth_encoding, message);
+  const DepthImage depth = depth_image(true);
+  if (depth_encoding == kinect_frame_t::DEPTH_PLAYER16) {
+    encoder.encode_depth_and_players(depth, Bytes(depth.size(), 2), message);
+  } else {
+    encoder.encode_depth(depth, depth_encoding, message);
+  }
   ColorImage color{24, 16, {}};
   for (int i = 0; i < 24 * 16 * 3; ++i) color.rgb.push_back(static_cast<std::uint8_t>(i));
   encoder.encode_color(color, color_encoding, 80, message);
@@ -83,7 +88,8 @@ void depth_codec_seeds(Corpus corpus) {
 }
 
 void frame_seeds(Corpus corpus) {
-  for (const auto depth : {kinect_frame_t::DEPTH_RAW16, kinect_frame_t::DEPTH_PDZ16}) {
+  for (const auto depth : {kinect_frame_t::DEPTH_RAW16, kinect_frame_t::DEPTH_PDZ16,
+                           kinect_frame_t::DEPTH_PLAYER16}) {
     for (const auto color : {kinect_frame_t::COLOR_RGB8, kinect_frame_t::COLOR_JPEG}) {
       Bytes bytes;
       encode(frame_message(depth, color), bytes);

@@ -47,8 +47,9 @@ def main(build, depth_images):
     build.mkdir(parents=True, exist_ok=True)
     images.write_bytes(subprocess.run([depth_images], check=True, capture_output=True).stdout)
     environment = dict(os.environ, ROOMWISE_MESSAGES=str(bundled(build, "messages")),
+                       ROOMWISE_FRAMES=str(bundled(build, "frames")),
                        ROOMWISE_PDZ16=str(bundled(build, "pdz16")), ROOMWISE_DEPTH_IMAGES=str(images))
-    tests = [HERE / "messages_test.mjs", HERE / "depth_images_test.mjs"]
+    tests = [HERE / f"{name}_test.mjs" for name in ("messages", "depth_images", "frame_depths")]
     return subprocess.run(["node", "--test", *tests], env=environment).returncode
 
 

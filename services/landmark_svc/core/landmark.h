@@ -41,7 +41,7 @@ struct Landmark {
   double v_bottom_px = 0.0;
   double column_slope = 0.0;  ///< of an edge: columns a row
   double depth_m = 0.0;       ///< of an edge: mean depth of its near pixels
-  bool is_moving = false;     ///< on something that moves, or not yet seen to stand still
+  bool is_moving = false;     ///< on something that moves, a person, or not yet seen to stand still
 };
 
 /// Sets range, bearing and their covariance from a place in the robot frame and its covariance in

@@ -6,6 +6,7 @@
 
 #include "services/landmark_svc/core/automatic_range.h"
 #include "services/landmark_svc/core/landmark_pieces.h"
+#include "services/landmark_svc/core/player_mask.h"
 #include "services/landmark_svc/core/thin_things.h"
 
 namespace roomwise::landmark {
@@ -18,6 +19,9 @@ DetectResult check(const RgbdFrame& frame) {
   if (!has_side(depth.width_px) || !has_side(depth.height_px) ||
       depth.size() !=
           static_cast<std::size_t>(depth.width_px) * static_cast<std::size_t>(depth.height_px)) {
+    return DetectResult::kBadImage;
+  }
+  if (!frame.players.empty() && frame.players.size() != depth.size()) {
     return DetectResult::kBadImage;
   }
   if (!std::isfinite(depth.unit_m) || !(depth.unit_m > 0.0)) return DetectResult::kBadUnit;
@@ -52,7 +56,15 @@ DetectResult LandmarkDetector::detect(const RgbdFrame& frame,
   find_edges(frame);
   find_landmarks(frame);
   mark_moving(frame, T_odom_robot);
+  if (!frame.players.empty()) mark_players(frame);
   return DetectResult::kOk;
+}
+
+void LandmarkDetector::mark_players(const RgbdFrame& frame) {
+  for (Landmark& landmark : landmarks_) {
+    landmark.is_moving =
+        landmark.is_moving || is_on_player(landmark, frame.players, frame.depth.width_px);
+  }
 }
 
 void LandmarkDetector::mark_moving(const RgbdFrame& frame,

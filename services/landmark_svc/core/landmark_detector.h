@@ -83,6 +83,7 @@ class LandmarkDetector {
   void find_chains(const RgbdFrame& frame);
   void find_creases(const RgbdFrame& frame);
   void mark_moving(const RgbdFrame& frame, const std::optional<Pose2>& T_odom_robot);
+  void mark_players(const RgbdFrame& frame);
   void try_chain(const ChainEstimator::Scene& scene, std::span<const EdgePixel> chain);
 
   LandmarkParams params_;

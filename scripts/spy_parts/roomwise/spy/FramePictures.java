@@ -49,11 +49,17 @@ final class FramePictures {
         return picture;
     }
 
-    /** Depths of DEPTH_RAW16, and of DEPTH_PLAYER16 without the player's index below them. */
+    /** Bits of a pixel's word below its depth: DEPTH_PLAYER16 has a player's index there. */
+    private static int bitsBelow(kinect_frame_t frame) {
+        if (frame.depth_encoding == kinect_frame_t.DEPTH_RAW16) return 0;
+        if (frame.depth_encoding == kinect_frame_t.DEPTH_PLAYER16) return 3;
+        throw new IllegalArgumentException("unknown depth encoding " + frame.depth_encoding);
+    }
+
     private static int[] raw(kinect_frame_t frame) {
         int[] steps = new int[frame.depth_width_px * frame.depth_height_px];
         ByteBuffer data = ByteBuffer.wrap(frame.depth_data).order(ByteOrder.LITTLE_ENDIAN);
-        int below = frame.depth_encoding == kinect_frame_t.DEPTH_PLAYER16 ? 3 : 0;
+        int below = bitsBelow(frame);
         for (int i = 0; i < steps.length; i++) steps[i] = (data.getShort(2 * i) & 0xffff) >> below;
         return steps;
     }
