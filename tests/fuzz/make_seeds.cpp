@@ -88,8 +88,8 @@ void depth_codec_seeds(Corpus corpus) {
 }
 
 void frame_seeds(Corpus corpus) {
-  for (const auto depth : {kinect_frame_t::DEPTH_RAW16, kinect_frame_t::DEPTH_PDZ16,
-                           kinect_frame_t::DEPTH_PLAYER16}) {
+  for (const auto depth :
+       {kinect_frame_t::DEPTH_RAW16, kinect_frame_t::DEPTH_PDZ16, kinect_frame_t::DEPTH_PLAYER16}) {
     for (const auto color : {kinect_frame_t::COLOR_RGB8, kinect_frame_t::COLOR_JPEG}) {
       Bytes bytes;
       encode(frame_message(depth, color), bytes);

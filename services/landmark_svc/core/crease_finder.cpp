@@ -77,8 +77,7 @@ std::optional<CreaseFinder::Side> CreaseFinder::side_of(std::size_t at, int step
 }
 
 bool CreaseFinder::judge(const VirtualScan& scan, std::size_t at, const DisparityTable& table,
-                         const CreaseParams& params, Candidate& candidate,
-                         RejectCounts& rejected) {
+                         const CreaseParams& params, Candidate& candidate, RejectCounts& rejected) {
   const double quantum_m = table.quantum_m(scan.points()[at].along_m);
   const double residual_max_quanta =
       std::hypot(params.residual_max_quanta, params.residual_max_m / quantum_m);

@@ -31,8 +31,8 @@ bool is_on_player(const Landmark& landmark, std::span<const std::uint8_t> player
   int looked_at = 0;
   int on_players = 0;
   for (int v = first_px; v <= last_px; ++v) {
-    const int line_px = static_cast<int>(
-        std::ceil(landmark.u_px + landmark.column_slope * (v - middle_px)));
+    const int line_px =
+        static_cast<int>(std::ceil(landmark.u_px + landmark.column_slope * (v - middle_px)));
     const int end = std::min(line_px + columns.end, width_px);
     for (int u = std::max(line_px + columns.begin, 0); u < end; ++u) {
       ++looked_at;

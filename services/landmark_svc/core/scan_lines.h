@@ -48,7 +48,8 @@ class ScanLines {
   /// Through points [begin, end), at least two.
   ScanLine line(std::size_t begin, std::size_t end) const;
   /// The last point in direction `step` (-1 or 1) of the unbroken piece that holds `from`, not
-  /// farther than `length_m` from it. Looked for from point `about` on: quick if the answer is near.
+  /// farther than `length_m` from it. Looked for from point `about` on: quick if the answer is
+  /// near.
   std::size_t reach(std::size_t from, int step, double length_m, std::size_t about) const;
   /// Along and left of the camera.
   const Eigen::Vector2d& p_m(std::size_t at) const { return points_m_[at]; }

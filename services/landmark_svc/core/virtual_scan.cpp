@@ -33,10 +33,9 @@ void mark_within(const std::uint16_t* steps, const DisparityTable& table, const 
   for (std::size_t i = 0; i < is_within.size(); ++i) {
     const int step = steps[i];
     const float ratio = static_cast<float>(step) * floor.at(u_begin_px + static_cast<int>(i));
-    is_within[i] = static_cast<std::uint8_t>(static_cast<int>(step >= nearest) &
-                                             static_cast<int>(step <= farthest) &
-                                             static_cast<int>(ratio >= slice.least) &
-                                             static_cast<int>(ratio <= slice.most));
+    is_within[i] = static_cast<std::uint8_t>(
+        static_cast<int>(step >= nearest) & static_cast<int>(step <= farthest) &
+        static_cast<int>(ratio >= slice.least) & static_cast<int>(ratio <= slice.most));
   }
 }
 
@@ -104,8 +103,8 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
   for (int v = region.v_begin_px; v < region.v_end_px; v += step) {
     const RowLine along_ratio = row_line(along, camera, v);
     const std::uint16_t* const steps =
-        depth.steps.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width_px) +
-        region.u_begin_px;
+        depth.steps.data() +
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width_px) + region.u_begin_px;
     mark_within(steps, table, row_line(gradient, camera, v), slice, region.u_begin_px, is_within_);
     for (int u = region.u_begin_px; u < region.u_end_px; ++u) {
       const int i = u - region.u_begin_px;

@@ -10,9 +10,9 @@ namespace {
 constexpr double kInView_rad = 0.4;
 constexpr double kFaces_rad = 0.1;
 constexpr double kSamePlace_m = 0.15;
-constexpr double kGlance_s = 6.0;  // safety_svc may not let it
+constexpr double kGlance_s = 6.0;     // safety_svc may not let it
 constexpr double kMeasured_m = 0.55;  // nearer than this a Kinect may not measure what stands there
-constexpr double kLine_m = 0.1;  // half of the width looked along
+constexpr double kLine_m = 0.1;       // half of the width looked along
 
 }  // namespace
 

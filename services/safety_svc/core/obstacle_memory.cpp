@@ -83,8 +83,9 @@ struct ObstacleMemory::Ray {
   bool sees_floor() const { return free_m > seen_from_m; }
   /// Near enough to be why no floor comes into view; an edge to fall off hides none.
   bool sees_obstacle() const {
-    return !is_dark && end != Reason::kDropOff && obstacle_m > 0.0 &&
-           obstacle_m < seen_from_m + 2.0 * kCell_m;
+    // either bound: a place is known to a cell.
+    return obstacle_m < seen_from_m + 2.0 * kCell_m && obstacle_m > 0.0 && !is_dark &&
+           end != Reason::kDropOff;
   }
   /// Where the floor did not come into view: what may stand there stands between these.
   double doubtful_from_m() const {

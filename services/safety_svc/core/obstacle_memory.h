@@ -31,8 +31,8 @@ struct FreeView {
   std::span<const double> free_range_m;
   std::span<const double> unknown_ratio;     ///< as many
   std::span<const double> obstacle_range_m;  ///< as many; to what is seen to stand there; 0: none
-  double floor_seen_from_m = 0.0;         ///< straight ahead; nearer is the blind zone
-  bool has_drop_off = false;              ///< some of what ends the view is an edge to fall off
+  double floor_seen_from_m = 0.0;            ///< straight ahead; nearer is the blind zone
+  bool has_drop_off = false;                 ///< some of what ends the view is an edge to fall off
 };
 
 /// What the floor round the robot is like, in cells of 5 cm of the odom frame: what was seen free,

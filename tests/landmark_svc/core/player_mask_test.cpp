@@ -53,15 +53,18 @@ TEST(PlayerMask, OfWhatHasNoFarSideBothSidesCount) {
 
 TEST(PlayerMask, HalfOfItsRowsAreNotMost) {
   auto players = player_in(20, 30);
-  std::fill(players.begin() + 20 * kMaskWidth_px, players.end(), std::uint8_t{0});  // rows 10..19 of 10..30
+  std::fill(players.begin() + 20 * kMaskWidth_px, players.end(),
+            std::uint8_t{0});  // rows 10..19 of 10..30
   EXPECT_FALSE(is_on_player(landmark_at(LandmarkKind::kEdgeLeft, 19.5), players, kMaskWidth_px));
-  std::fill(players.begin() + 20 * kMaskWidth_px, players.begin() + 21 * kMaskWidth_px, std::uint8_t{1});
+  std::fill(players.begin() + 20 * kMaskWidth_px, players.begin() + 21 * kMaskWidth_px,
+            std::uint8_t{1});
   EXPECT_TRUE(is_on_player(landmark_at(LandmarkKind::kEdgeLeft, 19.5), players, kMaskWidth_px));
 }
 
 TEST(PlayerMask, ALeaningEdgeIsFollowed) {
   std::vector<std::uint8_t> players(static_cast<std::size_t>(kMaskWidth_px) * kMaskHeight_px, 0);
-  for (int v = 0; v < kMaskHeight_px; ++v) players[static_cast<std::size_t>(v * kMaskWidth_px + v)] = 1;
+  for (int v = 0; v < kMaskHeight_px; ++v)
+    players[static_cast<std::size_t>(v * kMaskWidth_px + v)] = 1;
   Landmark leaning = landmark_at(LandmarkKind::kEdgeLeft, 19.5);
   EXPECT_FALSE(is_on_player(leaning, players, kMaskWidth_px));
   leaning.column_slope = 1.0;
