@@ -23,8 +23,14 @@ add_library(rapidcheck INTERFACE)
 target_include_directories(rapidcheck SYSTEM INTERFACE ${RAPIDCHECK_INCLUDE_DIR})
 target_link_libraries(rapidcheck INTERFACE ${RAPIDCHECK_LIBRARY})
 
-# A peer to measure against; benchmarks only, never needed.
+# Peers to measure against; benchmarks only, never needed.
 find_package(mrpt-slam QUIET)
+pkg_check_modules(PCL_FEATURES QUIET IMPORTED_TARGET pcl_features)
+foreach(peer mrpt-slam PCL_FEATURES)
+  if(NOT ${peer}_FOUND)
+    message(STATUS "${peer} is not installed: measured against others only (scripts/setup --peers)")
+  endif()
+endforeach()
 
 find_program(CCACHE ccache)
 if(CCACHE)

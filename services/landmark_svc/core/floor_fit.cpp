@@ -47,20 +47,21 @@ Round gather_near(const DepthImage& depth, const PinholeCamera& camera, const Di
                   const Eigen::Vector3d& gradient, double band_ratio) {
   Round round;
   const int stride = std::max(1, depth.width_px / kColumns);
-  const int columns = (depth.width_px - stride / 2 + stride - 1) / stride;
+  const int first = stride / 2;
+  const int columns = (depth.width_px - first + stride - 1) / stride;
   GridRow x(columns);
   for (int k = 0; k < columns; ++k) {
-    x[k] = static_cast<float>((stride / 2 + k * stride - camera.cx_px) / camera.fx_px);
+    x[k] = static_cast<float>((first + k * stride - camera.cx_px) / camera.fx_px);
   }
   const auto band = static_cast<float>(band_ratio);
   constexpr auto kNoise = static_cast<float>(kNoise_quanta);
   GridRow quanta(columns);
   GridRow off(columns);
   GridRow counts(columns);
-  for (int v = stride / 2; v < depth.height_px; v += stride) {
+  for (int v = first; v < depth.height_px; v += stride) {
     const double y = (v - camera.cy_px) / camera.fy_px;
     for (int k = 0; k < columns; ++k) {
-      quanta[k] = static_cast<float>(table.parts(depth.at(stride / 2 + k * stride, v)));
+      quanta[k] = static_cast<float>(table.parts(depth.at(first + k * stride, v)));
     }
     quanta /= static_cast<float>(DisparityTable::kPartsPerQuantum);
     const auto of_row = static_cast<float>(gradient.y() * y + gradient.z());
