@@ -194,7 +194,8 @@ async function pause(page) {
 async function replay(page) {
   await check(page, "there are logs to choose from", () =>
     until(page, () => document.querySelectorAll("#logs option").length > 1));
-  const log = await page.locator("#logs option").nth(1).getAttribute("value");
+  // A sample, whose camera runs from its first second on; there may be recordings of one's own too.
+  const log = await page.locator('#logs option[value^="samples/"]').first().getAttribute("value");
   await page.locator("#logs").selectOption(log);
   await check(page, "the page says REPLAY", () => until(page, () => document.getElementById("mode").textContent === "REPLAY"));
   await check(page, "driving is off in replay", () => until(page, () => document.body.dataset.control === "false"));
