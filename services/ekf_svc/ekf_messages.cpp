@@ -52,7 +52,7 @@ void fill_quality(const ekf::Estimator& estimator, const ekf::FrameResult& last_
   message.nis_dof = innovation.degrees_of_freedom;
   message.nis_ratio =
       innovation.degrees_of_freedom > 0 ? innovation.squared / innovation.degrees_of_freedom : 0.0;
-  message.landmarks_in_map = static_cast<std::int32_t>(estimator.filter().landmark_count());
+  message.landmarks_in_map = static_cast<std::int32_t>(estimator.filter().mapped_count());
   message.landmarks_seen = last_frame.seen;
   message.landmarks_matched = last_frame.matched;
   message.landmarks_added = last_frame.added;
@@ -144,6 +144,7 @@ landmark_map_t to_map_message(const ekf::Estimator& estimator) {
   landmark_map_t message{};
   message.utime = utime_of(estimator.estimate().time);
   for (std::size_t l = 0; l < filter.landmark_count(); ++l) {
+    if (filter.landmark(l).is_tentative) continue;
     message.map_landmarks.push_back(to_map_landmark(filter, l));
   }
   std::sort(message.map_landmarks.begin(), message.map_landmarks.end(),

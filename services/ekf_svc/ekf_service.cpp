@@ -156,7 +156,7 @@ void EkfService::keep_map() try {
 void EkfService::publish_map_if_due() {
   if (estimator_.state() == ekf::Estimator::State::kLost) return;  // of where, nobody knows
   const std::int64_t second = utime_of(estimator_.estimate().time) / kMapPeriod_us;
-  const std::size_t count = estimator_.filter().landmark_count();
+  const std::size_t count = estimator_.filter().mapped_count();
   if (second == map_second_ && count == map_count_) return;
   map_second_ = second;
   map_count_ = count;

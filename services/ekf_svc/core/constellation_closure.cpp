@@ -60,7 +60,8 @@ void ConstellationClosure::collect(double travel_m) {
   old_.clear();
   for (std::size_t l = 0; l < filter_->landmark_count(); ++l) {
     const Landmark& landmark = filter_->landmark(l);
-    if (landmark.identity >= 0 || landmark.times_seen < kTimesSeenMin) continue;
+    if (landmark.identity >= 0 || landmark.is_tentative) continue;
+    if (landmark.times_seen < kTimesSeenMin) continue;
     const double unseen_m = travel_m - landmark.last_seen_travel_m;
     const bool is_young = travel_m - landmark.first_seen_travel_m <= kYoungTravel_m;
     if (is_young && unseen_m <= kRecentTravel_m) recent_.push_back(l);

@@ -172,7 +172,7 @@ void Estimator::relocalise() {
   relocalise_due_travel_m_ = slam_.travel_m() + kRelocaliseEvery_m;
   filter().save(local_);
   const auto place = relocaliser_->find(local_);
-  if (!place || !slam_.resume(relocaliser_->map(), *place)) return;
+  if (!place || !slam_.resume(relocaliser_->map(), local_, *place)) return;
   relocaliser_.reset();
   relocalised_until_travel_m_ = slam_.travel_m() + kRelocalisedFor_m;
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "common/geometry/pose2.h"
+
 namespace roomwise::ekf {
 
 /// Colour of a landmark's near surface: ln(R/G), ln(B/G) and the variance of each.
@@ -12,7 +14,7 @@ struct Signature {
 
 /// What the map knows of a landmark beside its place.
 struct Landmark {
-  std::int64_t map_id = 0;     ///< never used twice
+  std::int64_t map_id = 0;     ///< never used twice; 0: tentative
   std::int32_t identity = -1;  ///< >= 0: known for certain; -1: unknown
   std::int8_t kind = 0;        ///< landmark_observation_t.KIND_*
   Signature signature = {};
@@ -21,6 +23,8 @@ struct Landmark {
   std::int32_t score = 0;            ///< sightings less the times it was looked through
   double first_seen_travel_m = 0.0;  ///< way the robot had gone then
   double last_seen_travel_m = 0.0;
+  bool is_tentative = false;   ///< seen, but not sure enough to be in the map
+  Pose2 first_seen_from = {};  ///< of a tentative one
 };
 
 }  // namespace roomwise::ekf

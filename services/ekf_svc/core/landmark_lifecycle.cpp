@@ -53,7 +53,7 @@ std::span<const std::size_t> LandmarkLifecycle::weigh(SlamFilter& filter,
   const Pose2 T_robot_map = inverse(filter.pose());
   for (std::size_t l = filter.landmark_count(); l-- > 0;) {
     Landmark& landmark = filter.landmark(l);
-    if (landmark.identity >= 0) continue;
+    if (landmark.identity >= 0 || landmark.is_tentative) continue;
     if (is_seen_[l]) {
       landmark.score = std::min(landmark.score + 1, kScoreMax);
       lost_monitor_.record(landmark.map_id, true);

@@ -7,8 +7,8 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr double kLocalReach_m = 15.0;          // farther landmarks are never in view
-constexpr double kSigmaPerSpacing = 1.0 / 6.0;  // 3 sigma reach half way to the next landmark
+constexpr double kLocalReach_m = 15.0;           // farther landmarks are never in view
+constexpr double kSigmaPerSpacing = 1.0 / 10.0;  // 5 sigma reach half way to the next
 constexpr double kWellKnownSigmaMax_m = 0.5;
 constexpr JointCompatibility::Limits kLocalLimits{.normal_quantile = kNormal99, .nodes = 3000};
 
@@ -30,7 +30,7 @@ void LocalAssociation::begin(double travel_m) {
   const Eigen::Vector2d p_robot_m = filter_->pose().position_m();
   for (std::size_t l = 0; l < filter_->landmark_count(); ++l) {
     const Landmark& landmark = filter_->landmark(l);
-    if (landmark.identity >= 0) continue;
+    if (landmark.identity >= 0 || landmark.is_tentative) continue;
     const Eigen::Vector2d p_map_m = filter_->landmark_position_m(l);
     const double range_m2 = (p_map_m - p_robot_m).squaredNorm();
     if (range_m2 > kLocalReach_m * kLocalReach_m) continue;

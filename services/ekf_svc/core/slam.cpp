@@ -54,6 +54,7 @@ Slam::Slam(const EkfParams& params)
               static_cast<std::size_t>(params.landmark_budget)),
       local_(filter_),
       lifecycle_(filter_, params),
+      tentative_(filter_),
       closure_(filter_),
       twins_(filter_) {
   if (params.self_calibration) {
@@ -88,6 +89,7 @@ FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
   }
   note_seen(verdicts);
   if (may_update) remove_what_is_gone(sightings, verdicts, scan);
+  replace_refused(sightings, verdicts);
   add_new(sightings, verdicts);
   merge_what_is_one();
   result.merged = static_cast<int>(merged_.size());
@@ -198,33 +200,63 @@ void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> 
   batch_.clear();
 }
 
-void Slam::add_new(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
-  tentative_.begin(filter_.pose(), travel_m_);
+void Slam::replace_refused(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    if (verdicts[i] == Verdict::kReplaced) {
-      filter_.remove(find_identity(filter_, sightings[i], body(sightings[i])).landmark);
-      if (add(sightings[i]) != Verdict::kAdded) verdicts[i] = Verdict::kBudgetFull;
-    } else if (verdicts[i] == Verdict::kAdded) {
-      verdicts[i] = add(sightings[i]);
-    }
+    if (verdicts[i] != Verdict::kReplaced) continue;
+    const BodyObservation seen = body(sightings[i]);
+    filter_.remove(find_identity(filter_, sightings[i], seen).landmark);
+    if (!filter_.add(seen, begun(sightings[i]))) verdicts[i] = Verdict::kBudgetFull;
   }
 }
 
-Verdict Slam::add(const Sighting& sighting) {
-  if (map_is_fixed_) return Verdict::kMapFixed;
-  const BodyObservation seen = body(sighting);
-  if (sighting.identity < 0) {
-    if (!tentative_.confirms(sighting, seen, params_.confirm_sightings)) return Verdict::kTentative;
-  } else if (find_identity(filter_, sighting, seen).landmark != Candidate::kNone) {
-    return Verdict::kTaken;  // twice in one frame
+void Slam::add_new(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
+  tentative_.begin(travel_m_);
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (verdicts[i] != Verdict::kAdded) continue;
+    const bool is_known = sightings[i].identity >= 0;
+    verdicts[i] = map_is_fixed_ ? Verdict::kMapFixed
+                  : is_known    ? add_known(sightings[i])
+                                : add_unknown(i, sightings[i]);
+    if (batch_.size() == SlamFilter::kResidualsMax) update_batch(sightings, verdicts);
   }
-  const Landmark landmark{.identity = sighting.identity,
-                          .kind = sighting.kind,
-                          .signature = cleaned(sighting.signature),
-                          .times_seen = 1,
-                          .first_seen_travel_m = travel_m_,
-                          .last_seen_travel_m = travel_m_};
-  return filter_.add(seen, landmark) ? Verdict::kAdded : Verdict::kBudgetFull;
+  update_batch(sightings, verdicts);
+}
+
+Verdict Slam::add_known(const Sighting& sighting) {
+  const BodyObservation seen = body(sighting);
+  const bool is_twice_in_frame =
+      find_identity(filter_, sighting, seen).landmark != Candidate::kNone;
+  if (is_twice_in_frame) return Verdict::kTaken;
+  return filter_.add(seen, begun(sighting)) ? Verdict::kAdded : Verdict::kBudgetFull;
+}
+
+/// What becomes sure joins the map where it was first seen, and is measured by this sighting.
+Verdict Slam::add_unknown(std::size_t i, const Sighting& sighting) {
+  const BodyObservation seen = body(sighting);
+  if (params_.confirm_sightings <= 1) {
+    return filter_.add(seen, begun(sighting)) ? Verdict::kAdded : Verdict::kBudgetFull;
+  }
+  const std::size_t l = tentative_.find(sighting, seen);
+  if (l == TentativeLandmarks::kNone) {
+    return tentative_.begin_with(seen, begun(sighting)) ? Verdict::kTentative
+                                                        : Verdict::kBudgetFull;
+  }
+  if (!tentative_.is_sure(l, params_.confirm_sightings)) return Verdict::kTentative;
+  filter_.enter_in_map(l);
+  filter_.landmark(l).times_seen = 0;
+  filter_.landmark(l).first_seen_travel_m = travel_m_;
+  candidates_[i].landmark = l;
+  batch_.push_back(i);
+  return Verdict::kAdded;
+}
+
+Landmark Slam::begun(const Sighting& sighting) const {
+  return {.identity = sighting.identity,
+          .kind = sighting.kind,
+          .signature = cleaned(sighting.signature),
+          .times_seen = 1,
+          .first_seen_travel_m = travel_m_,
+          .last_seen_travel_m = travel_m_};
 }
 
 void Slam::note_seen(std::span<const Verdict> verdicts) {

@@ -62,9 +62,10 @@ class Slam {
   /// Forgets the map; the robot stands at the origin of a new one.
   void begin_anew();
 
-  /// Goes on with a saved map, in which the present map of a few landmarks was found to lie like
-  /// this. False if the map is larger than the budget.
-  [[nodiscard]] bool resume(const MapSnapshot& map, const Relocaliser::Place& place);
+  /// Goes on with a saved map, in which `local`, the present map of a few landmarks, was found to
+  /// lie like this. False if the map is larger than the budget.
+  [[nodiscard]] bool resume(const MapSnapshot& map, const MapSnapshot& local,
+                            const Relocaliser::Place& place);
 
   /// Landmarks the last frame found to be others, by map_id.
   struct Merged {
@@ -87,7 +88,10 @@ class Slam {
   void remove_what_is_gone(std::span<const Sighting> sightings, std::span<const Verdict> verdicts,
                            const VirtualScan& scan);
   void add_new(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
-  Verdict add(const Sighting& sighting);
+  void replace_refused(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  Verdict add_known(const Sighting& sighting);
+  Verdict add_unknown(std::size_t i, const Sighting& sighting);
+  Landmark begun(const Sighting& sighting) const;
   BodyObservation body(const Sighting& sighting) const;
 
   static constexpr double kWideningRatioTrusted = 4.0;

@@ -113,7 +113,7 @@ bool SlamFilter::add(const BodyObservation& seen, const Landmark& landmark) {
   x_.data()[n] = x_.data()[kPosition] + offset.x();
   x_.data()[n + 1] = x_.data()[kPosition + 1] + offset.y();
   landmarks_.push_back(landmark);
-  landmarks_.back().map_id = next_map_id_++;
+  landmarks_.back().map_id = landmark.is_tentative ? 0 : next_map_id_++;
   return true;
 }
 

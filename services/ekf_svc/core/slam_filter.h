@@ -98,8 +98,11 @@ class SlamFilter {
   /// Appends a landmark at the place it is seen, correlated with everything: f = p + R z,
   /// P_f. = G P_pose., P_ff = G P_pose G^T + R covariance R^T, G = [J (f - p), I]. O(n).
   /// False, and nothing done, if the budget is used up. An observation that adds must not also
-  /// update. The filter sets map_id.
+  /// update. The filter sets map_id, unless it is tentative.
   [[nodiscard]] bool add(const BodyObservation& seen, const Landmark& landmark);
+
+  /// Tentative landmark `l` is sure, and gets a map_id.
+  void enter_in_map(std::size_t l);
 
   /// Forgets landmark `l` (marginalises it); the last landmark takes its number. O(n).
   void remove(std::size_t l);
@@ -117,6 +120,8 @@ class SlamFilter {
   RobotMatrix robot_covariance() const;
 
   std::size_t landmark_count() const { return landmarks_.size(); }
+  /// Of them, those in the map: not tentative.
+  std::size_t mapped_count() const;
   std::size_t landmark_budget() const { return budget_; }
   const Landmark& landmark(std::size_t l) const { return landmarks_[l]; }
   Landmark& landmark(std::size_t l) { return landmarks_[l]; }
@@ -140,7 +145,7 @@ class SlamFilter {
   static constexpr std::size_t kRobotSize = 6;
   static constexpr std::size_t landmark_index(std::size_t l) { return kRobotSize + 2 * l; }
 
-  /// The map without the robot. May allocate.
+  /// The map without the robot and what is tentative. May allocate.
   void save(MapSnapshot& map) const;
 
   /// Goes on with a saved map, from a pose that owes nothing to it. What was known of the

@@ -1,20 +1,34 @@
-// SlamFilter's map taken out and put back.
+// SlamFilter's map: what is in it; taken out and put back.
 #include <algorithm>
 
 #include "services/ekf_svc/core/slam_filter.h"
 
 namespace roomwise::ekf {
 
+void SlamFilter::enter_in_map(std::size_t l) {
+  landmarks_[l].is_tentative = false;
+  landmarks_[l].map_id = next_map_id_++;
+}
+
+std::size_t SlamFilter::mapped_count() const {
+  const auto is_mapped = [](const Landmark& landmark) { return !landmark.is_tentative; };
+  return static_cast<std::size_t>(std::count_if(landmarks_.begin(), landmarks_.end(), is_mapped));
+}
+
 void SlamFilter::save(MapSnapshot& map) const {
-  map.landmarks = landmarks_;
+  map.landmarks.clear();
   map.positions_m.clear();
-  for (std::size_t l = 0; l < landmarks_.size(); ++l) {
-    map.positions_m.push_back(landmark_position_m(l));
-  }
   map.covariance_m2.clear();
-  for (std::size_t i = kRobotSize; i < size(); ++i) {
-    const double* row = covariance_.row(i);
-    map.covariance_m2.insert(map.covariance_m2.end(), row + i, row + size());
+  for (std::size_t l = 0; l < landmarks_.size(); ++l) {
+    if (landmarks_[l].is_tentative) continue;
+    map.landmarks.push_back(landmarks_[l]);
+    map.positions_m.push_back(landmark_position_m(l));
+    for (const std::size_t i : {landmark_index(l), landmark_index(l) + 1}) {
+      for (std::size_t j = i; j < size(); ++j) {
+        if (landmarks_[(j - kRobotSize) / 2].is_tentative) continue;
+        map.covariance_m2.push_back(covariance_.at(i, j));
+      }
+    }
   }
   map.calibration = calibration();
   map.calibration_covariance = robot_covariance().bottomRightCorner<3, 3>();

@@ -1,4 +1,6 @@
 // Slam between maps: begun anew, or gone on with after relocalisation.
+#include <stdexcept>
+
 #include "services/ekf_svc/core/slam.h"
 
 namespace roomwise::ekf {
@@ -13,6 +15,14 @@ constexpr double kStartSigma_rad = 0.2;
 // The local map's landmarks share the drift of the way between them, which is taken for noise of
 // each: the better half of it counts twice.
 constexpr double kSharedDrift = 2.0;
+
+/// Of the landmark with this map_id, which the filter has.
+std::size_t number_of(const SlamFilter& filter, std::int64_t map_id) {
+  for (std::size_t l = 0; l < filter.landmark_count(); ++l) {
+    if (filter.landmark(l).map_id == map_id) return l;
+  }
+  throw std::logic_error("Slam: the local map is not the filter's");
+}
 
 /// Landmark `l` of the filter as if seen from where the robot is now.
 BodyObservation as_seen_now(const SlamFilter& filter, std::size_t l) {
@@ -29,7 +39,6 @@ void Slam::begin_anew() {
   filter_.fix_map(false);
   map_is_fixed_ = false;
   filter_.reset();
-  tentative_.clear();
   gate_monitor_.clear();
   lifecycle_.clear();
   if (!params_.self_calibration) return;
@@ -37,9 +46,12 @@ void Slam::begin_anew() {
                             params_.calibration_sigma_rad_per_m});
 }
 
-bool Slam::resume(const MapSnapshot& map, const Relocaliser::Place& place) {
+bool Slam::resume(const MapSnapshot& map, const MapSnapshot& local,
+                  const Relocaliser::Place& place) {
   std::vector<BodyObservation> seen;
-  for (const LandmarkPair& pair : place.pairs) seen.push_back(as_seen_now(filter_, pair.recent));
+  for (const LandmarkPair& pair : place.pairs) {
+    seen.push_back(as_seen_now(filter_, number_of(filter_, local.landmarks[pair.recent].map_id)));
+  }
   const Pose2 pose = compose(place.fit.T_map_local, filter_.pose());
   const Eigen::Vector3d variance(kStartSigma_rad * kStartSigma_rad, kStartSigma_m * kStartSigma_m,
                                  kStartSigma_m * kStartSigma_m);
@@ -57,7 +69,6 @@ bool Slam::resume(const MapSnapshot& map, const Relocaliser::Place& place) {
     residuals_.push_back(filter_.observation_residual(l, seen[i]));
     filter_.landmark(l).last_seen_travel_m = travel_m_;
   }
-  tentative_.clear();
   gate_monitor_.clear();
   lifecycle_.clear();
   return filter_.update(residuals_) == UpdateResult::kUsed;

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/ekf_svc/core/association.h"
+#include "services/ekf_svc/core/signature.h"
+
 namespace roomwise::ekf {
 namespace {
 
 constexpr double kForgetAfter_m = 2.0;  // of way without another sighting
-constexpr double kGateSq = 9.21;
-constexpr double kDriftVariance_m2 = 0.03 * 0.03;  // of the pose between two sightings
+constexpr double kGateSq =
+    5.99;  // 95 % of two degrees of freedom: a wrong pair corrects the filter
+constexpr std::size_t kRoom = 64;  // for what a frame may begin
 constexpr double kBaseline_m = 0.1;
 constexpr double kBaseline_rad = 0.087;
 
@@ -19,58 +23,79 @@ bool is_from_elsewhere(const Pose2& a, const Pose2& b) {
 
 }  // namespace
 
-void TentativeLandmarks::begin(const Pose2& T_map_robot, double travel_m) {
-  T_map_robot_ = T_map_robot;
+TentativeLandmarks::TentativeLandmarks(SlamFilter& filter) : filter_(&filter) {
+  things_.reserve(kThingsMax);
+}
+
+void TentativeLandmarks::begin(double travel_m) {
   travel_m_ = travel_m;
-  ++frame_;
-  std::erase_if(things_, [this](const Thing& thing) {
-    return travel_m_ - thing.last_seen_travel_m > kForgetAfter_m;
-  });
+  for (std::size_t l = filter_->landmark_count(); l-- > 0;) {
+    const Landmark& landmark = filter_->landmark(l);
+    if (!landmark.is_tentative) continue;
+    if (travel_m - landmark.last_seen_travel_m > kForgetAfter_m) filter_->remove(l);
+  }
+  collect();
+  if (things_.size() > kThingsMax - kRoom) forget_oldest(kThingsMax - kRoom);
 }
 
-bool TentativeLandmarks::confirms(const Sighting& sighting, const BodyObservation& seen,
-                                  int times) {
-  if (times <= 1) return true;
-  const Eigen::Vector2d p_map_m = transform(T_map_robot_, seen.p_robot_m);
-  const double variance_m2 = 0.5 * seen.covariance_m2.trace();
-  Thing* thing = nearest(sighting, p_map_m, variance_m2);
-  if (thing == nullptr) {
-    remember({p_map_m, variance_m2, sighting.kind, T_map_robot_, travel_m_, 1, frame_});
-    return false;
-  }
-  thing->p_map_m = p_map_m;
-  thing->variance_m2 = variance_m2;
-  thing->last_seen_travel_m = travel_m_;
-  thing->frame = frame_;
-  ++thing->times_seen;
-  if (thing->times_seen < times || !is_from_elsewhere(thing->first_seen_from, T_map_robot_)) {
-    return false;
-  }
-  things_.erase(things_.begin() + (thing - things_.data()));
-  return true;
-}
-
-TentativeLandmarks::Thing* TentativeLandmarks::nearest(const Sighting& sighting,
-                                                       const Eigen::Vector2d& p_map_m,
-                                                       double variance_m2) {
+std::size_t TentativeLandmarks::find(const Sighting& sighting, const BodyObservation& seen) {
   Thing* best = nullptr;
   double best_sq = kGateSq;
   for (Thing& thing : things_) {
-    if (thing.kind != sighting.kind || thing.frame == frame_) continue;
-    const double squared = (thing.p_map_m - p_map_m).squaredNorm() /
-                           (thing.variance_m2 + variance_m2 + kDriftVariance_m2);
-    if (squared >= best_sq) continue;
+    const Landmark& landmark = filter_->landmark(thing.landmark);
+    if (thing.is_seen || landmark.kind != sighting.kind) continue;
+    const Residual residual = filter_->observation_residual(thing.landmark, seen);
+    const SignatureDistance colour = distance(sighting.signature, landmark.signature);
+    const double squared =
+        mahalanobis_sq(residual.innovation, filter_->innovation_covariance(residual)) +
+        colour.squared;
+    if (!(squared < best_sq)) continue;
     best_sq = squared;
     best = &thing;
   }
-  return best;
+  if (best == nullptr) return kNone;
+  best->is_seen = true;
+  Landmark& landmark = filter_->landmark(best->landmark);
+  landmark.last_seen_travel_m = travel_m_;
+  ++landmark.times_seen;
+  return best->landmark;
 }
 
-/// When full, what was not seen for longest makes room.
-void TentativeLandmarks::remember(const Thing& thing) {
-  if (things_.size() < kThingsMax) return things_.push_back(thing);
-  *std::min_element(things_.begin(), things_.end(),
-                    [](const Thing& a, const Thing& b) { return a.frame < b.frame; }) = thing;
+bool TentativeLandmarks::is_sure(std::size_t landmark, int times) const {
+  const Landmark& thing = filter_->landmark(landmark);
+  return thing.times_seen >= times && is_from_elsewhere(thing.first_seen_from, filter_->pose());
+}
+
+bool TentativeLandmarks::begin_with(const BodyObservation& seen, const Landmark& landmark) {
+  if (count_ >= kThingsMax) return false;
+  Landmark tentative = landmark;
+  tentative.is_tentative = true;
+  tentative.first_seen_from = filter_->pose();
+  if (!filter_->add(seen, tentative)) return false;
+  ++count_;
+  return true;
+}
+
+void TentativeLandmarks::collect() {
+  things_.clear();
+  for (std::size_t l = 0; l < filter_->landmark_count(); ++l) {
+    if (filter_->landmark(l).is_tentative) things_.push_back({l, false});
+  }
+  count_ = things_.size();
+}
+
+/// All but `left` of them: those go that were not seen for longest.
+void TentativeLandmarks::forget_oldest(std::size_t left) {
+  collect();
+  while (things_.size() > left) {
+    const auto oldest =
+        std::min_element(things_.begin(), things_.end(), [this](const Thing& a, const Thing& b) {
+          return filter_->landmark(a.landmark).last_seen_travel_m <
+                 filter_->landmark(b.landmark).last_seen_travel_m;
+        });
+    filter_->remove(oldest->landmark);
+    collect();
+  }
 }
 
 }  // namespace roomwise::ekf

@@ -1,45 +1,47 @@
 #pragma once
-#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "common/geometry/pose2.h"
 #include "services/ekf_svc/core/sighting.h"
+#include "services/ekf_svc/core/slam_filter.h"
 
 namespace roomwise::ekf {
 
 /// Things seen that may be landmarks. Most false detections never come back; a real thing does, and
-/// from elsewhere. Nothing here touches the filter.
+/// from elsewhere. They are in the filter from their first sighting on, so that what the robot does
+/// until they are sure is measured by them; but nothing is corrected by them before, and they are
+/// no part of the map.
 class TentativeLandmarks {
  public:
-  TentativeLandmarks() { things_.reserve(kThingsMax); }
+  explicit TentativeLandmarks(SlamFilter& filter);
 
-  /// A frame begins, with the robot there.
-  void begin(const Pose2& T_map_robot, double travel_m);
+  /// A frame begins. What was not seen for 2 m of way is forgotten: landmark numbers change.
+  void begin(double travel_m);
 
-  /// Takes a sighting of nothing mapped. True if the thing has now been seen `times`, over 0.1 m or
-  /// 5 degrees of motion: it is forgotten here and should be begun with this very sighting.
-  bool confirms(const Sighting& sighting, const BodyObservation& seen, int times);
+  /// The tentative landmark this sighting of nothing mapped is of, which is noted; `kNone`: of
+  /// none. A frame sees each once.
+  std::size_t find(const Sighting& sighting, const BodyObservation& seen);
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  void clear() { things_.clear(); }
+  /// Whether it was seen `times`, over 0.1 m or 5 degrees of motion.
+  bool is_sure(std::size_t landmark, int times) const;
+
+  /// Begins one. False if the budget is used up.
+  bool begin_with(const BodyObservation& seen, const Landmark& landmark);
 
  private:
   static constexpr std::size_t kThingsMax = 256;
   struct Thing {
-    Eigen::Vector2d p_map_m;  // as last seen
-    double variance_m2;
-    std::int8_t kind;
-    Pose2 first_seen_from;
-    double last_seen_travel_m;
-    int times_seen;
-    std::int64_t frame;  // of the last sighting
+    std::size_t landmark;
+    bool is_seen;  // in this frame
   };
-  Thing* nearest(const Sighting& sighting, const Eigen::Vector2d& p_map_m, double variance_m2);
-  void remember(const Thing& thing);
+  void collect();
+  void forget_oldest(std::size_t left);
 
-  std::vector<Thing> things_;
-  Pose2 T_map_robot_;
+  SlamFilter* filter_;
+  std::vector<Thing> things_;  // those there when the frame began
+  std::size_t count_ = 0;      // and those begun since
   double travel_m_ = 0.0;
-  std::int64_t frame_ = 0;
 };
 
 }  // namespace roomwise::ekf

@@ -27,7 +27,8 @@ std::span<const LandmarkPair> TwinLandmarks::find(double travel_m) {
   pairs_.clear();
   for (std::size_t a = 0; a < filter_->landmark_count(); ++a) {
     const Landmark& landmark = filter_->landmark(a);
-    if (landmark.identity >= 0 || landmark.times_seen < kTwinTimesSeenMin) continue;
+    if (landmark.identity >= 0 || landmark.is_tentative) continue;
+    if (landmark.times_seen < kTwinTimesSeenMin) continue;
     if (travel_m - landmark.last_seen_travel_m > kTwinRecentTravel_m) continue;
     const std::size_t b = only_twin_of(a);
     if (b == kNoTwin || pairs_.size() == SlamFilter::kResidualsMax) continue;
@@ -43,7 +44,8 @@ std::span<const LandmarkPair> TwinLandmarks::find(double travel_m) {
 std::size_t TwinLandmarks::only_twin_of(std::size_t recent) const {
   std::size_t twin = kNoTwin;
   for (std::size_t b = 0; b < filter_->landmark_count(); ++b) {
-    if (b == recent || !may_be_one(filter_->landmark(recent), filter_->landmark(b))) continue;
+    if (b == recent || filter_->landmark(b).is_tentative) continue;
+    if (!may_be_one(filter_->landmark(recent), filter_->landmark(b))) continue;
     const Eigen::Vector2d apart =
         filter_->landmark_position_m(recent) - filter_->landmark_position_m(b);
     if (apart.squaredNorm() > kTwinReach_m * kTwinReach_m) continue;

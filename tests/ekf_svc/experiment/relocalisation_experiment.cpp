@@ -76,7 +76,7 @@ void wake_up(CorridorWorld world, const MapSnapshot& map, const Pose2& map_start
     slam.filter().save(local);
     const auto place = relocaliser.find(local);
     if (!place) continue;
-    if (!slam.resume(map, *place)) continue;
+    if (!slam.resume(map, local, *place)) continue;
     const Pose2 truth = pose_in_map(map, world, map_start);
     ++tally.found;
     tally.way_m += step * settings.step_m;
