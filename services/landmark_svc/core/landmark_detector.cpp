@@ -78,11 +78,13 @@ void LandmarkDetector::mark_moving(const RgbdFrame& frame,
   for (Landmark& landmark : landmarks_) {
     const Eigen::Vector2d p_m = landmark.range_m * Eigen::Vector2d(std::cos(landmark.bearing_rad),
                                                                    std::sin(landmark.bearing_rad));
-    landmark.is_moving =
-        moving_.covers(p_m, params_.moving) ||
-        !standing_.has_stood(frame.utime, *T_odom_robot, landmark, params_.standing);
+    landmark.is_moving = moving_.covers(p_m, params_.moving);
   }
   standing_.remember(frame.utime, *T_odom_robot, landmarks_);
+  for (Landmark& landmark : landmarks_) {
+    if (standing_.has_stood(frame.utime, *T_odom_robot, landmark, params_.standing)) continue;
+    landmark.is_moving = true;
+  }
 }
 
 void LandmarkDetector::find_edges(const RgbdFrame& frame) {

@@ -130,6 +130,8 @@ struct LandmarkParams {
     field("moving_reach_m", moving.reach_m, 0.0, 2.0);
     field("standing_age_min_s", standing.age_min_s, 0.0, 1.0);
     field("standing_age_max_s", standing.age_max_s, 0.0, 10.0);
+    field("standing_age_beside_mover_min_s", standing.age_beside_mover_min_s, 0.0, 1.0);
+    field("standing_mover_reach_m", standing.mover_reach_m, 0.0, 5.0);
     field("standing_reach_m", standing.reach_m, 0.0, 1.0);
     field("standing_reach_ratio", standing.reach_ratio, 0.0, 1.0);
   }

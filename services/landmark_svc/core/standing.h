@@ -10,7 +10,9 @@ namespace roomwise::landmark {
 
 /// When a landmark is known to stand still.
 struct StandingParams {
-  double age_min_s = 0.15;  ///< somebody who walks has moved by then
+  double age_min_s = 0.15;              ///< somebody who walks has moved by then
+  double age_beside_mover_min_s = 0.6;  ///< ... but not who turns round: where something moves
+  double mover_reach_m = 0.5;           ///< so near, or did lately
   double age_max_s = 1.0;
   double reach_m = 0.05;      ///< from where it was seen then, plus the next line
   double reach_ratio = 0.01;  ///< of its range
@@ -28,7 +30,7 @@ class Standing {
   /// enough is remembered at all: nobody can tell then.
   bool has_stood(std::int64_t utime, const Pose2& T_odom_robot, const Landmark& landmark,
                  const StandingParams& params) const;
-  /// Takes a frame's landmarks. Times that go back start anew.
+  /// Takes a frame's landmarks, with what of them moves. Times that go back start anew.
   void remember(std::int64_t utime, const Pose2& T_odom_robot,
                 const std::vector<Landmark>& landmarks);
 
@@ -36,12 +38,16 @@ class Standing {
   struct Seen {
     LandmarkKind kind;
     Eigen::Vector2d p_odom_m;
+    bool is_moving;
   };
   struct Past {
     std::int64_t utime = 0;
     std::vector<Seen> seen;
   };
   static constexpr std::size_t kFrames = 32;
+
+  bool is_beside_mover(const Eigen::Vector2d& p_odom_m, std::int64_t oldest_utime,
+                       double reach_m) const;
 
   std::array<Past, kFrames> past_;
   std::size_t known_ = 0;

@@ -37,6 +37,32 @@ TEST(Standing, TellsWhoWalksFromWhatStands) {
   }
 }
 
+// Who turns a corner stands for a moment: long enough for what has nothing to do with movers.
+TEST(Standing, WhoWalkedAndTurnsHasNotStoodYet) {
+  const auto stood_after = [](bool was_moving, double distance_m) {
+    Standing standing;
+    Landmark walker = at(2.5, 0.3);
+    walker.is_moving = was_moving;
+    standing.remember(0, {}, {walker});
+    const Landmark turning = at(2.5, 0.3 + distance_m);
+    for (int i = 1; i < 10; ++i) standing.remember(i * kFrame_us, {}, {turning});
+    return standing.has_stood(10 * kFrame_us, {}, turning, {});
+  };
+  EXPECT_FALSE(stood_after(true, 0.2));
+  EXPECT_TRUE(stood_after(false, 0.2));
+  EXPECT_TRUE(stood_after(true, 0.8)) << "what stands elsewhere is not in doubt";
+}
+
+TEST(Standing, WhatMovedOnceIsTakenForStandingInTheEnd) {
+  Standing standing;
+  Landmark chair = at(2.5, 0.3);
+  chair.is_moving = true;
+  standing.remember(0, {}, {chair});
+  chair.is_moving = false;
+  for (int i = 1; i < 25; ++i) standing.remember(i * kFrame_us, {}, {chair});
+  EXPECT_TRUE(standing.has_stood(25 * kFrame_us, {}, chair, {}));
+}
+
 TEST(Standing, FollowsTheRobotsOwnMotion) {
   Standing standing;
   const Eigen::Vector2d post_m(2.5, 0.4);
