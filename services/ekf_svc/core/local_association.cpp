@@ -26,7 +26,8 @@ void LocalAssociation::begin(double travel_m) {
   offers_.clear();
   candidates_.clear();
   joint_.clear();
-  const Eigen::Matrix3d P = filter_->pose_covariance();
+  const RobotMatrix P = filter_->robot_covariance();
+  const double range_variance = 2.0 * P.bottomRightCorner<2, 2>().trace();
   const Eigen::Vector2d p_robot_m = filter_->pose().position_m();
   for (std::size_t l = 0; l < filter_->landmark_count(); ++l) {
     const Landmark& landmark = filter_->landmark(l);
@@ -34,9 +35,9 @@ void LocalAssociation::begin(double travel_m) {
     const Eigen::Vector2d p_map_m = filter_->landmark_position_m(l);
     const double range_m2 = (p_map_m - p_robot_m).squaredNorm();
     if (range_m2 > kLocalReach_m * kLocalReach_m) continue;
-    // cov(a + b + c) <= 3 (cov a + cov b + cov c)
-    const double spread_m2 =
-        3.0 * (range_m2 * P(0, 0) + P(1, 1) + P(2, 2) + filter_->landmark_covariance_m2(l).trace());
+    // cov(a + b + c + d) <= 4 (cov a + cov b + cov c + cov d)
+    const double spread_m2 = 4.0 * (range_m2 * (P(0, 0) + range_variance) + P(1, 1) + P(2, 2) +
+                                    filter_->landmark_covariance_m2(l).trace());
     const bool is_seen_lately = travel_m - landmark.last_seen_travel_m <= kLocalTravel_m;
     locals_.push_back({l, p_map_m, spread_m2, is_seen_lately});
   }

@@ -69,7 +69,7 @@ RobotMatrix transition(double heading_rad, const MotionIncrement& motion) {
   RobotMatrix F = RobotMatrix::Identity();
   F.topLeftCorner<3, 3>() =
       turn_then_move(quarter_turn(rotation * motion.translation_m), Eigen::Matrix2d::Identity());
-  F.topRightCorner<3, 3>() = G * motion.per_calibration;
+  F.block<3, 3>(0, 3) = G * motion.per_calibration;
   return F;
 }
 

@@ -43,11 +43,12 @@ struct MotionIncrement {
 /// Pose after the motion. The heading is wrapped.
 Pose2 moved(const Pose2& T_map_robot, const MotionIncrement& motion);
 
-using RobotMatrix = Eigen::Matrix<double, 6, 6>;
+using RobotMatrix = Eigen::Matrix<double, 8, 8>;
 
-/// Covariance after the motion from that before, both of (heading, x, y, OdometryCalibration):
-///   F P F^T + G Q G^T,  F = [1 0 D_0; J R dp, I, R D_p; 0 0 I],  G = [1 0; 0 R; 0 0],
-/// with D_0 and D_p the rows of per_calibration.
+/// Covariance after the motion from that before, both of (heading, x, y, OdometryCalibration,
+/// RangeCalibration):
+///   F P F^T + G Q G^T,  F = [1 0 D_0 0; J R dp, I, R D_p, 0; 0 0 I 0; 0 0 0 I],
+///   G = [1 0; 0 R; 0 0; 0 0],  with D_0 and D_p the rows of per_calibration.
 RobotMatrix moved_covariance(double heading_rad, const RobotMatrix& covariance,
                              const MotionIncrement& motion);
 

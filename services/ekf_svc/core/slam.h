@@ -75,6 +75,8 @@ class Slam {
   std::span<const Merged> merged() const { return merged_; }
 
  private:
+  void free_calibrations();
+  void free_ranges(std::span<const Sighting> sightings);
   void judge_all(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   Verdict judge(std::size_t i, const Sighting& sighting);
   void keep_best_pairs(std::span<Verdict> verdicts);
@@ -97,6 +99,7 @@ class Slam {
   static constexpr double kWideningRatioTrusted = 4.0;
 
   EkfParams params_;
+  bool ranges_are_free_ = false;
   bool map_is_fixed_ = false;  // mode "localise", once in the map
   SlamFilter filter_;
   GateMonitor gate_monitor_;
