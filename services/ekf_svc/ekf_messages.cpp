@@ -85,6 +85,7 @@ ekf::OdometrySample to_sample(const odometry_t& message) {
   sample.covariance << message.covariance_distance_distance_m2,
       message.covariance_distance_turn_m_rad, message.covariance_distance_turn_m_rad,
       message.covariance_turn_turn_rad2;
+  sample.is_asked_for = message.source == odometry_t::SOURCE_VELOCITY;
   sample.T_odom_robot = {message.x_m, message.y_m, message.heading_rad};
   return sample;
 }

@@ -72,7 +72,8 @@ Slam::Slam(const EkfParams& params)
 void Slam::free_calibrations() {
   if (!params_.self_calibration) return;
   filter_.free_calibration({params_.calibration_sigma_ratio, params_.calibration_sigma_ratio,
-                            params_.calibration_sigma_rad_per_m});
+                            params_.calibration_sigma_rad_per_m},
+                           params_.calibration_sigma_m_per_rad);
   ranges_are_free_ = false;
 }
 

@@ -39,14 +39,14 @@ void SlamFilter::predict(const MotionIncrement& motion) {
   const RobotMatrix moved_robot =
       moved_covariance(heading(), robot_covariance(), motion);  // before x_ changes
   const RobotMatrix F = transition(heading(), motion);
-  const Eigen::Matrix3d D = F.block<3, 3>(0, kCalibration);
+  const Eigen::Matrix<double, 3, 4> D = F.block<3, 4>(0, kCalibration);
   const Eigen::Vector2d shift = rotation2(heading()) * motion.translation_m;
 
   std::array<double*, kRangeCalibration> rows;
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = covariance_.row(i);
   for (std::size_t j = kRobotSize; j < size(); ++j) {
     Eigen::Vector3d with_pose(rows[0][j], rows[1][j], rows[2][j]);
-    const Eigen::Vector3d with_calibration(rows[3][j], rows[4][j], rows[5][j]);
+    const Eigen::Vector4d with_calibration(rows[3][j], rows[4][j], rows[5][j], rows[6][j]);
     with_pose.tail<2>() += F.block<2, 1>(1, 0) * with_pose(0);
     with_pose += D * with_calibration;
     for (std::size_t i = 0; i < kPoseSize; ++i) {
@@ -65,8 +65,11 @@ void SlamFilter::predict(const MotionIncrement& motion) {
   x[kPosition + 1] += shift.y();
 }
 
-void SlamFilter::free_calibration(const Eigen::Vector3d& sigma) {
+void SlamFilter::free_calibration(const Eigen::Vector3d& sigma, double turn_loss_sigma_m_per_rad) {
   drift_calibration(sigma.cwiseProduct(sigma));
+  covariance_.set(
+      kTurnLoss, kTurnLoss,
+      covariance_.at(kTurnLoss, kTurnLoss) + turn_loss_sigma_m_per_rad * turn_loss_sigma_m_per_rad);
 }
 
 void SlamFilter::free_range_calibration(double sigma) {
@@ -178,7 +181,7 @@ Eigen::Matrix3d SlamFilter::pose_covariance() const {
 
 OdometryCalibration SlamFilter::calibration() const {
   const double* value = x_.data() + kCalibration;
-  return {{value[0], value[1], value[2]}};
+  return {{value[0], value[1], value[2]}, value[3]};
 }
 
 RangeCalibration SlamFilter::range_calibration() const { return {point(kRangeCalibration)}; }

@@ -38,7 +38,7 @@ struct InnovationStatistics {
 /// The mathematics of EKF-SLAM in the plane: state, covariance and what may be done to them. Which
 /// measurement belongs to which landmark is decided elsewhere.
 ///
-/// State for L landmarks, n = 8 + 2 L, in the map frame (the pose at construction):
+/// State for L landmarks, n = 9 + 2 L, in the map frame (the pose at construction):
 ///   x  n      [heading | x y | OdometryCalibration | RangeCalibration | l0x l0y | l1x l1y | ...]
 ///   P  n x n  covariance of the additive error, same order
 ///
@@ -66,7 +66,7 @@ class SlamFilter {
 
   /// Lets the odometry's calibration be estimated, from these sigmas on. At construction they are
   /// 0: odometry is taken at its word.
-  void free_calibration(const Eigen::Vector3d& sigma);
+  void free_calibration(const Eigen::Vector3d& sigma, double turn_loss_sigma_m_per_rad = 0.0);
   /// Lets the ranges' calibration be estimated, either number from this sigma on. At construction
   /// it is 0: ranges are taken at their word.
   void free_range_calibration(double sigma);
@@ -123,7 +123,7 @@ class SlamFilter {
   Eigen::Matrix3d pose_covariance() const;
   OdometryCalibration calibration() const;
   RangeCalibration range_calibration() const;
-  /// Covariance of (heading, x, y, OdometryCalibration, RangeCalibration). Shape 8 x 8.
+  /// Covariance of (heading, x, y, OdometryCalibration, RangeCalibration). Shape 9 x 9.
   RobotMatrix robot_covariance() const;
 
   std::size_t landmark_count() const { return landmarks_.size(); }
@@ -149,8 +149,9 @@ class SlamFilter {
   static constexpr std::size_t kPosition = 1;
   static constexpr std::size_t kCalibration = 3;
   static constexpr std::size_t kPoseSize = 3;
-  static constexpr std::size_t kRangeCalibration = 6;
-  static constexpr std::size_t kRobotSize = 8;
+  static constexpr std::size_t kTurnLoss = 6;  // of the odometry's calibration
+  static constexpr std::size_t kRangeCalibration = 7;
+  static constexpr std::size_t kRobotSize = 9;
   static constexpr std::size_t landmark_index(std::size_t l) { return kRobotSize + 2 * l; }
 
   /// The map without the robot and what is tentative. May allocate.

@@ -73,7 +73,7 @@ TEST(RangeCalibration, TheSameSightingAgainTellsNothingOfIt) {
   const Residual elsewhere = filter.observation_residual(0, to_body(polar(3.0, -0.4), 0.0, 0.0));
   EXPECT_GT(filter.innovation_covariance(elsewhere).trace(), 5.0 * seen.covariance_m2.trace());
   ASSERT_EQ(filter.update({&again, 1}), UpdateResult::kUsed);
-  EXPECT_NEAR(filter.robot_covariance()(6, 6), kCalibrationSigma * kCalibrationSigma, 1e-9);
+  EXPECT_NEAR(filter.robot_covariance()(7, 7), kCalibrationSigma * kCalibrationSigma, 1e-9);
 }
 
 TEST(RangeCalibration, OfAFilterThatDoesNotLearnItStaysExact) {
@@ -83,7 +83,7 @@ TEST(RangeCalibration, OfAFilterThatDoesNotLearnItStaysExact) {
   const Residual residual = filter.observation_residual(0, to_body(polar(3.3, 0.4), 0.0, 0.0));
   ASSERT_EQ(filter.update({&residual, 1}), UpdateResult::kUsed);
   EXPECT_EQ(filter.range_calibration().value, Eigen::Vector2d::Zero());
-  EXPECT_EQ(filter.robot_covariance()(7, 7), 0.0);
+  EXPECT_EQ(filter.robot_covariance()(8, 8), 0.0);
 }
 
 /// A robot goes three times round a ring of posts, and its camera gives depths for ranges.
