@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "services/ekf_svc/core/arc_innovation.h"
 #include "services/ekf_svc/core/range_outliers.h"
 #include "services/ekf_svc/core/signature.h"
 
@@ -203,15 +204,27 @@ void Slam::update(std::span<const Sighting> sightings, std::span<Verdict> verdic
   update_batch(sightings, verdicts);
 }
 
+Residual Slam::softened_residual(std::size_t l, const BodyObservation& seen) const {
+  const Residual chord = filter_.observation_residual(l, seen);
+  Residual residual = unrolled(filter_, chord, seen);
+  const Eigen::Matrix2d S = filter_.innovation_covariance(residual);
+  if (residual.innovation == chord.innovation) {
+    residual.softening = range_softening(residual, seen.p_robot_m, S, params_.range_outlier_sigmas);
+    return residual;
+  }
+  const Eigen::Vector2d along = (seen.p_robot_m - chord.innovation).normalized();
+  Residual range_alone = residual;
+  range_alone.innovation = along * along.dot(residual.innovation);
+  residual.softening =
+      range_softening(range_alone, seen.p_robot_m.norm() * along, S, params_.range_outlier_sigmas);
+  return residual;
+}
+
 void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
   residuals_.clear();
   for (const std::size_t i : batch_) {
     const BodyObservation seen = body(sightings[i]);
-    Residual residual = filter_.observation_residual(candidates_[i].landmark, seen);
-    residual.softening =
-        range_softening(residual, seen.p_robot_m, filter_.innovation_covariance(residual),
-                        params_.range_outlier_sigmas);
-    residuals_.push_back(residual);
+    residuals_.push_back(softened_residual(candidates_[i].landmark, seen));
   }
   const bool used = filter_.update(residuals_) == UpdateResult::kUsed;
   if (used && !batch_.empty()) noise_monitor_.record(filter_.last_innovation());

@@ -84,6 +84,7 @@ class Slam {
   void widen_pose();
   void update(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   void update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  Residual softened_residual(std::size_t l, const BodyObservation& seen) const;
   void note_seen(std::span<const Verdict> verdicts);
   void merge_what_is_one();
   void merge(std::span<const LandmarkPair> pairs);
