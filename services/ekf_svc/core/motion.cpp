@@ -7,6 +7,8 @@
 namespace roomwise::ekf {
 namespace {
 
+constexpr int kRobot = RobotMatrix::RowsAtCompileTime;
+
 /// [1 0; column 0, block] of the text.
 Eigen::Matrix3d turn_then_move(const Eigen::Vector2d& per_turn, const Eigen::Matrix2d& per_move) {
   Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
@@ -86,7 +88,12 @@ RobotMatrix moved_covariance(double heading_rad, const RobotMatrix& covariance,
                              const MotionIncrement& motion) {
   const RobotMatrix F = transition(heading_rad, motion);
   const Eigen::Matrix3d G = turn_then_move(Eigen::Vector2d::Zero(), rotation2(heading_rad));
-  RobotMatrix after = F * covariance * F.transpose();
+  // F is the identity below the pose; lazyProduct: no kernel for large matrices.
+  const Eigen::Matrix<double, 3, kRobot> pose_rows = F.topRows<3>().lazyProduct(covariance);
+  RobotMatrix after = covariance;
+  after.topRows<3>() = pose_rows;
+  after.leftCols<3>() = pose_rows.transpose();
+  after.topLeftCorner<3, 3>() = pose_rows.lazyProduct(F.topRows<3>().transpose());
   after.topLeftCorner<3, 3>() += G * motion.covariance * G.transpose();
   return after;
 }

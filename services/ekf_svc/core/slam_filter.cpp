@@ -109,7 +109,7 @@ bool SlamFilter::add(const BodyObservation& seen, const Landmark& landmark) {
   Eigen::Matrix<double, 2, kRobotSize> G = Eigen::Matrix<double, 2, kRobotSize>::Zero();
   G.leftCols<3>() << lever.x(), 1.0, 0.0, lever.y(), 0.0, 1.0;
   G.rightCols<2>() = per_calibration;
-  const Eigen::Matrix<double, 2, kRobotSize> with_robot = G * robot_covariance();
+  const Eigen::Matrix<double, 2, kRobotSize> with_robot = G.lazyProduct(robot_covariance());
   for (std::size_t j = kRobotSize; j < n; ++j) {
     const Eigen::Vector2d with_ranges =
         per_calibration * Eigen::Vector2d(with_tilt[j], with_curvature[j]);

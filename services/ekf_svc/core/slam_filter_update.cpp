@@ -31,17 +31,21 @@ bool cholesky(Matrix& matrix, std::size_t dimension) {
   return true;
 }
 
-/// A residual's H: where its columns stand, and what they hold.
+/// A residual's H: where its columns stand, and what they hold. Those of the range calibration come
+/// last, and most residuals have none.
 struct SparseJacobian {
   std::array<std::size_t, 7> columns;
   Eigen::Matrix<double, 2, 7> values;
+  std::size_t count;
 };
 
 SparseJacobian sparse(const Residual& residual) {
   const auto& [a, b] = residual.points;
   constexpr std::size_t kRanges = SlamFilter::kRangeCalibration;
   SparseJacobian H{
-      {SlamFilter::kHeading, a.index, a.index + 1, b.index, b.index + 1, kRanges, kRanges + 1}, {}};
+      {SlamFilter::kHeading, a.index, a.index + 1, b.index, b.index + 1, kRanges, kRanges + 1},
+      {},
+      residual.calibration.isZero(0.0) ? 5U : 7U};
   H.values << residual.heading, a.value, b.value, residual.calibration;
   return H;
 }
@@ -101,9 +105,9 @@ Residual SlamFilter::equality_residual(std::size_t i, std::size_t j, double sigm
 
 Eigen::Matrix2d SlamFilter::cross_covariance(const Residual& a, const Residual& b) const {
   const SparseJacobian H_a = sparse(a), H_b = sparse(b);
-  Eigen::Matrix<double, 7, 7> P;
-  for (std::size_t i = 0; i < 7; ++i) {
-    for (std::size_t j = 0; j < 7; ++j) {
+  Eigen::Matrix<double, 7, 7> P = Eigen::Matrix<double, 7, 7>::Zero();
+  for (std::size_t i = 0; i < H_a.count; ++i) {
+    for (std::size_t j = 0; j < H_b.count; ++j) {
       P(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           covariance_.at(H_a.columns[i], H_b.columns[j]);
     }
@@ -157,8 +161,10 @@ void SlamFilter::gather_gain(const Residual& residual, double* first, double* se
     }
   };
   accumulate(kHeading, residual.heading);
-  accumulate(kRangeCalibration, residual.calibration.col(0));
-  accumulate(kRangeCalibration + 1, residual.calibration.col(1));
+  if (!residual.calibration.isZero(0.0)) {
+    accumulate(kRangeCalibration, residual.calibration.col(0));
+    accumulate(kRangeCalibration + 1, residual.calibration.col(1));
+  }
   for (const JacobianBlock& block : residual.points) {
     accumulate(block.index, block.value.col(0));
     accumulate(block.index + 1, block.value.col(1));
