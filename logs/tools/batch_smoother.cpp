@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <array>
+#include <cmath>
 
 namespace roomwise {
 namespace {
@@ -30,13 +31,13 @@ Eigen::Matrix<T, 2, 1> into_robot(const T* pose, const Eigen::Matrix<T, 2, 1>& p
 
 struct OdometryCost {
   ekf::MotionIncrement motion;
-  Eigen::Vector3d calibration_then;  // the motion's
+  Eigen::Vector4d calibration_then;  // the motion's
   Eigen::Matrix3d root;
 
   template <class T>
   bool operator()(const T* a, const T* b, const T* calibration, T* residual) const {
-    Eigen::Matrix<T, 3, 1> change;
-    for (int i = 0; i < 3; ++i) change(i) = calibration[i] - calibration_then(i);
+    Eigen::Matrix<T, 4, 1> change;
+    for (int i = 0; i < 4; ++i) change(i) = calibration[i] - calibration_then(i);
     const Eigen::Matrix<T, 3, 1> shift = motion.per_calibration.cast<T>() * change;
     const Eigen::Matrix<T, 2, 1> moved = into_robot<T>(a, Eigen::Matrix<T, 2, 1>(b[1], b[2]));
     const T turn = b[0] - a[0] - motion.turn_rad - shift(0);
@@ -51,41 +52,54 @@ struct OdometryCost {
 
 struct SightingCost {
   Eigen::Vector2d p_robot_m;
+  Eigen::Vector2d shape;  // RangeCalibration's, where it was seen
   Eigen::Matrix2d root;
 
   template <class T>
-  bool operator()(const T* pose, const T* landmark, T* residual) const {
+  bool operator()(const T* pose, const T* landmark, const T* ranges, T* residual) const {
     const Eigen::Matrix<T, 2, 1> p(landmark[0], landmark[1]);
+    const T ratio = 1.0 + shape.x() * ranges[0] + shape.y() * ranges[1];
     Eigen::Map<Eigen::Matrix<T, 2, 1>> whitened(residual);
-    whitened = root.cast<T>() * (into_robot<T>(pose, p) - p_robot_m.cast<T>());
+    whitened = root.cast<T>() * (ratio * into_robot<T>(pose, p) - p_robot_m.cast<T>());
     return true;
   }
 };
 
+template <int kSize>
 struct CalibrationCost {
   template <class T>
   bool operator()(const T* calibration, T* residual) const {
-    for (int i = 0; i < 3; ++i) residual[i] = calibration[i] / kCalibrationSigma;
+    for (int i = 0; i < kSize; ++i) residual[i] = calibration[i] / kCalibrationSigma;
     return true;
   }
 };
 
-void add_odometry(SmoothProblem& from, std::vector<Heading>& poses, ceres::Problem& problem) {
+template <int kSize>
+void expect_small(double* calibration, ceres::Problem& problem) {
+  using Cost = CalibrationCost<kSize>;
+  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Cost, kSize, kSize>(new Cost), nullptr,
+                           calibration);
+}
+
+void add_odometry(SmoothProblem& from, Eigen::Vector4d& calibration, std::vector<Heading>& poses,
+                  ceres::Problem& problem) {
   for (std::size_t i = 0; i < from.motions.size(); ++i) {
     const Eigen::Matrix3d floor = kStandstillSigma * kStandstillSigma * Eigen::Matrix3d::Identity();
-    auto* cost = new ceres::AutoDiffCostFunction<OdometryCost, 3, 3, 3, 3>(new OdometryCost{
-        from.motions[i], from.calibration.value, whitener<3>(from.motions[i].covariance + floor)});
+    auto* cost = new ceres::AutoDiffCostFunction<OdometryCost, 3, 3, 3, 4>(new OdometryCost{
+        from.motions[i], calibration, whitener<3>(from.motions[i].covariance + floor)});
     problem.AddResidualBlock(cost, nullptr, poses[i].data(), poses[i + 1].data(),
-                             from.calibration.value.data());
+                             calibration.data());
   }
 }
 
 void add_sightings(SmoothProblem& from, std::vector<Heading>& poses, ceres::Problem& problem) {
   for (const SmoothSighting& seen : from.sightings) {
-    auto* cost = new ceres::AutoDiffCostFunction<SightingCost, 2, 3, 2>(
-        new SightingCost{seen.p_robot_m, whitener<2>(seen.covariance_m2)});
+    auto* cost = new ceres::AutoDiffCostFunction<SightingCost, 2, 3, 2, 2>(new SightingCost{
+        seen.p_robot_m,
+        ekf::RangeCalibration::shape(std::atan2(seen.p_robot_m.y(), seen.p_robot_m.x())),
+        whitener<2>(seen.covariance_m2)});
     problem.AddResidualBlock(cost, new ceres::CauchyLoss(kCauchySigmas), poses[seen.node].data(),
-                             from.landmarks_m[seen.landmark].data());
+                             from.landmarks_m[seen.landmark].data(), from.ranges.value.data());
   }
 }
 
@@ -95,11 +109,12 @@ SmoothReport smooth(SmoothProblem& from) {
   std::vector<Heading> poses;
   for (const Pose2& pose : from.poses) poses.push_back({pose.heading_rad, pose.x_m, pose.y_m});
   ceres::Problem problem;
-  add_odometry(from, poses, problem);
+  Eigen::Vector4d calibration;
+  calibration << from.calibration.value, from.calibration.turn_loss_m_per_rad;
+  add_odometry(from, calibration, poses, problem);
   add_sightings(from, poses, problem);
-  problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<CalibrationCost, 3, 3>(new CalibrationCost), nullptr,
-      from.calibration.value.data());
+  expect_small<4>(calibration.data(), problem);
+  expect_small<2>(from.ranges.value.data(), problem);
   problem.SetParameterBlockConstant(poses.front().data());
 
   ceres::Solver::Options options;
@@ -109,6 +124,7 @@ SmoothReport smooth(SmoothProblem& from) {
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  from.calibration = {calibration.head<3>(), calibration(3)};
   for (std::size_t i = 0; i < poses.size(); ++i) {
     from.poses[i] = {poses[i][1], poses[i][2], wrap_angle(poses[i][0])};
   }

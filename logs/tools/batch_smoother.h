@@ -5,6 +5,7 @@
 
 #include "common/geometry/pose2.h"
 #include "services/ekf_svc/core/motion.h"
+#include "services/ekf_svc/core/range_calibration.h"
 
 namespace roomwise {
 
@@ -22,6 +23,7 @@ struct SmoothProblem {
   std::vector<Pose2> poses;                   ///< first guess; the answer
   std::vector<ekf::MotionIncrement> motions;  ///< from node i to i + 1, with `calibration`
   ekf::OdometryCalibration calibration;       ///< first guess; the answer
+  ekf::RangeCalibration ranges;               ///< first guess; the answer
   std::vector<Eigen::Vector2d> landmarks_m;   ///< first guess; the answer
   std::vector<SmoothSighting> sightings;
 };
@@ -33,10 +35,10 @@ struct SmoothReport {
   bool converged = false;
 };
 
-/// The most likely path, map and odometry calibration together (maximum a posteriori, all poses
-/// linearised anew in each iteration): what a filter, which never looks back, can at best come near
-/// to. Sightings count with Cauchy's loss, so that a misread landmark bends nothing. The first pose
-/// is held.
+/// The most likely path, map and calibration of odometry and ranges together (maximum a posteriori,
+/// all poses linearised anew in each iteration): what a filter, which never looks back, can at best
+/// come near to. Sightings count with Cauchy's loss, so that a misread landmark bends nothing. The
+/// first pose is held.
 SmoothReport smooth(SmoothProblem& problem);
 
 }  // namespace roomwise

@@ -82,8 +82,10 @@ void add_motions(const Drive& drive, SmoothProblem& problem) {
     Eigen::Matrix2d covariance;
     covariance << report.covariance_distance_distance_m2, report.covariance_distance_turn_m_rad,
         report.covariance_distance_turn_m_rad, report.covariance_turn_turn_rad2;
+    const auto step =
+        report.source == odometry_t::SOURCE_VELOCITY ? ekf::speed_step : ekf::arc_step;
     const ekf::MotionStep whole =
-        ekf::arc_step(report.distance_increment_m, report.turn_increment_rad, covariance);
+        step(report.distance_increment_m, report.turn_increment_rad, covariance);
     const auto length_us = static_cast<double>(report.utime - begin);
     while (begin < report.utime && node < problem.motions.size()) {
       if (begin < problem.utimes[node]) {
@@ -203,6 +205,11 @@ void smooth_log(const SmoothOptions& options, std::ostream& notes) {
   fmt::print(notes, "distance scale {:.4f}\nturn scale {:.4f}\nturn per distance {:.4f} rad/m\n",
              1.0 + problem.calibration.distance_ratio(), 1.0 + problem.calibration.turn_ratio(),
              problem.calibration.turn_per_distance_rad_per_m());
+  fmt::print(notes,
+             "lost in curves {:.4f} m/rad\nranges over the view: tilt {:.4f}, curvature"
+             " {:.4f}\n",
+             problem.calibration.turn_loss_m_per_rad, problem.ranges.value.x(),
+             problem.ranges.value.y());
   write_smoothed(options, drive, problem);
 }
 

@@ -67,7 +67,7 @@ void fill_calibration(const ekf::SlamFilter& filter, pose_t& message) {
   message.distance_scale_ratio = 1.0 + calibration.distance_ratio();
   message.turn_scale_ratio = 1.0 + calibration.turn_ratio();
   message.turn_per_distance_rad_per_m = calibration.turn_per_distance_rad_per_m();
-  const Eigen::Vector3d sigma = filter.robot_covariance().diagonal().tail<3>().cwiseSqrt();
+  const Eigen::Vector3d sigma = filter.robot_covariance().diagonal().segment<3>(3).cwiseSqrt();
   message.distance_scale_sigma_ratio = sigma(0);
   message.turn_scale_sigma_ratio = sigma(1);
   message.turn_per_distance_sigma_rad_per_m = sigma(2);
@@ -85,6 +85,7 @@ ekf::OdometrySample to_sample(const odometry_t& message) {
   sample.covariance << message.covariance_distance_distance_m2,
       message.covariance_distance_turn_m_rad, message.covariance_distance_turn_m_rad,
       message.covariance_turn_turn_rad2;
+  sample.is_asked_for = message.source == odometry_t::SOURCE_VELOCITY;
   sample.T_odom_robot = {message.x_m, message.y_m, message.heading_rad};
   return sample;
 }

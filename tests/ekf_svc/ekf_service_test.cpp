@@ -7,6 +7,7 @@
 
 #include "common/bus/log_bus.h"
 #include "common/bus/wire.h"
+#include "services/ekf_svc/ekf_messages.h"
 
 namespace roomwise {
 namespace {
@@ -87,6 +88,16 @@ class EkfServiceTest : public testing::Test {
   std::vector<LogEvent> input_;
   std::map<std::string, std::int64_t, std::less<>> counters_;
 };
+
+TEST(EkfMessages, OnlyIntegratedSpeedsWereAskedFor) {
+  odometry_t message = odometry_at(1);
+  message.source = odometry_t::SOURCE_WHEELS;
+  EXPECT_FALSE(to_sample(message).is_asked_for);
+  message.source = odometry_t::SOURCE_BODY;
+  EXPECT_FALSE(to_sample(message).is_asked_for);
+  message.source = odometry_t::SOURCE_VELOCITY;
+  EXPECT_TRUE(to_sample(message).is_asked_for);
+}
 
 TEST_F(EkfServiceTest, OnePosePerOdometryAtItsTime) {
   send_odometry(1, 10);

@@ -55,8 +55,8 @@ TEST_P(Mrclam, TrajectoryAndMapAreWithinTheBars) {
   const Score result = score(run, replay(run));
   std::printf("robot %d: aligned trajectory RMSE %.3f m, aligned map RMSE %.3f m\n", GetParam(),
               result.trajectory_m, result.map_m);
-  EXPECT_LE(result.trajectory_m, 0.25);
-  EXPECT_LE(result.map_m, 0.10);
+  EXPECT_LE(result.trajectory_m, 0.15);
+  EXPECT_LE(result.map_m, 0.085);
 }
 
 INSTANTIATE_TEST_SUITE_P(Set7, Mrclam, testing::Values(2, 5));

@@ -79,6 +79,17 @@ TEST(BatchSmoother, WheelsThatReportTooMuchAreFoundOut) {
               doubtful.turn_ratio(), 0.005);
 }
 
+TEST(BatchSmoother, DepthsGivenForRangesAreFoundOut) {
+  SmoothProblem problem = circle(0.05);
+  const ekf::RangeCalibration depths{{0.0, -0.08}};
+  for (SmoothSighting& seen : problem.sightings) {
+    seen.p_robot_m *= depths.ratio(std::atan2(seen.p_robot_m.y(), seen.p_robot_m.x()));
+  }
+  smooth(problem);
+  EXPECT_LT((problem.ranges.value - depths.value).norm(), 0.005);
+  EXPECT_LT(farthest_m(problem, circle(0.0)), 0.01);
+}
+
 TEST(BatchSmoother, OneMisreadLandmarkBendsNothing) {
   SmoothProblem problem = circle(0.02);
   problem.sightings[100].p_robot_m = {-3.0, -3.0};

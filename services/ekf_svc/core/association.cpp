@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "services/ekf_svc/core/arc_innovation.h"
 #include "services/ekf_svc/core/signature.h"
 
 namespace roomwise::ekf {
@@ -19,7 +20,7 @@ Candidate find_identity(const SlamFilter& filter, const Sighting& sighting,
   for (std::size_t l = 0; l < filter.landmark_count(); ++l) {
     const Landmark& landmark = filter.landmark(l);
     if (landmark.identity != sighting.identity || landmark.kind != sighting.kind) continue;
-    const Residual residual = filter.observation_residual(l, seen);
+    const Residual residual = unrolled(filter, filter.observation_residual(l, seen), seen);
     return {l, mahalanobis_sq(residual.innovation, filter.innovation_covariance(residual)) +
                    distance(sighting.signature, landmark.signature).squared};
   }

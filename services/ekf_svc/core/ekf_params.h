@@ -17,8 +17,14 @@ struct EkfParams {
   bool self_calibration = true;
   double calibration_sigma_ratio = 0.05;  ///< what to expect of either scale before the first turn
   double calibration_sigma_rad_per_m = 0.02;  ///< and of the pull, turn per distance
+  /// And of the distance that speeds which were asked for lose in curves, per turn.
+  double calibration_sigma_m_per_rad = 0.05;
   double calibration_drift_ratio =
       0.001;  ///< wander of a scale over a metre of way, per root metre
+
+  /// What to expect of a range's error that depends on where in the view it is seen, in standard
+  /// deviations the first sightings claim; 0: of none. Learned if self_calibration is on.
+  double range_calibration_sigmas = 0.5;
 
   double gap_distance_sigma_mps = 0.1;  ///< unseen travel per second without odometry
   double gap_turn_sigma_radps = 0.2;    ///< unseen turn per second without odometry
@@ -54,7 +60,9 @@ struct EkfParams {
     field("self_calibration", self_calibration);
     field("calibration_sigma_ratio", calibration_sigma_ratio, 0.0, 0.5);
     field("calibration_sigma_rad_per_m", calibration_sigma_rad_per_m, 0.0, 1.0);
+    field("calibration_sigma_m_per_rad", calibration_sigma_m_per_rad, 0.0, 1.0);
     field("calibration_drift_ratio", calibration_drift_ratio, 0.0, 0.1);
+    field("range_calibration_sigmas", range_calibration_sigmas, 0.0, 10.0);
     field("gap_distance_sigma_mps", gap_distance_sigma_mps, 0.0, 10.0);
     field("gap_turn_sigma_radps", gap_turn_sigma_radps, 0.0, 10.0);
     field("range_bias_m", range_bias_m, 0.0, 1.0);

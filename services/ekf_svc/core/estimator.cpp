@@ -86,8 +86,9 @@ void Estimator::drop_latency() {
 }
 
 MotionStep Estimator::step_of(const OdometrySample& sample, double missing_s) const {
-  MotionStep step = arc_step(sample.distance_m, sample.turn_rad,
-                             params_.odometry_noise_ratio * sample.covariance);
+  const Eigen::Matrix2d covariance = params_.odometry_noise_ratio * sample.covariance;
+  MotionStep step = sample.is_asked_for ? speed_step(sample.distance_m, sample.turn_rad, covariance)
+                                        : arc_step(sample.distance_m, sample.turn_rad, covariance);
   if (missing_s <= 0.0) return step;
   if (bridges(sample)) {
     step = chord_step(compose(inverse(last_.T_odom_robot), sample.T_odom_robot), step.covariance);

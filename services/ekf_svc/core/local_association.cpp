@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/ekf_svc/core/arc_innovation.h"
 #include "services/ekf_svc/core/chi_square.h"
 
 namespace roomwise::ekf {
@@ -10,6 +11,7 @@ namespace {
 constexpr double kLocalReach_m = 15.0;           // farther landmarks are never in view
 constexpr double kSigmaPerSpacing = 1.0 / 10.0;  // 5 sigma reach half way to the next
 constexpr double kWellKnownSigmaMax_m = 0.5;
+constexpr double kToldApartSq = 4.0;  // of distance to noise of one sighting, 2 sigma
 constexpr JointCompatibility::Limits kLocalLimits{.normal_quantile = kNormal99, .nodes = 3000};
 
 }  // namespace
@@ -26,7 +28,8 @@ void LocalAssociation::begin(double travel_m) {
   offers_.clear();
   candidates_.clear();
   joint_.clear();
-  const Eigen::Matrix3d P = filter_->pose_covariance();
+  const RobotMatrix P = filter_->robot_covariance();
+  const double range_variance = 2.0 * P.bottomRightCorner<2, 2>().trace();
   const Eigen::Vector2d p_robot_m = filter_->pose().position_m();
   for (std::size_t l = 0; l < filter_->landmark_count(); ++l) {
     const Landmark& landmark = filter_->landmark(l);
@@ -34,9 +37,9 @@ void LocalAssociation::begin(double travel_m) {
     const Eigen::Vector2d p_map_m = filter_->landmark_position_m(l);
     const double range_m2 = (p_map_m - p_robot_m).squaredNorm();
     if (range_m2 > kLocalReach_m * kLocalReach_m) continue;
-    // cov(a + b + c) <= 3 (cov a + cov b + cov c)
-    const double spread_m2 =
-        3.0 * (range_m2 * P(0, 0) + P(1, 1) + P(2, 2) + filter_->landmark_covariance_m2(l).trace());
+    // cov(a + b + c + d) <= 4 (cov a + cov b + cov c + cov d)
+    const double spread_m2 = 4.0 * (range_m2 * (P(0, 0) + range_variance) + P(1, 1) + P(2, 2) +
+                                    filter_->landmark_covariance_m2(l).trace());
     const bool is_seen_lately = travel_m - landmark.last_seen_travel_m <= kLocalTravel_m;
     locals_.push_back({l, p_map_m, spread_m2, is_seen_lately});
   }
@@ -51,10 +54,11 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
     if (filter_->landmark(local.index).kind != what.kind) continue;
     const double distance_m2 = (local.p_map_m - p_map_m).squaredNorm();
     if (distance_m2 > kNewLandmarkSq * (noise_m2 + local.spread_m2)) continue;
-    const Residual residual = filter_->observation_residual(local.index, seen);
+    const Residual residual =
+        unrolled(*filter_, filter_->observation_residual(local.index, seen), seen);
     const Eigen::Matrix2d S = filter_->innovation_covariance(residual);
     const double relative_m2 = S.trace() - residual.noise.trace();
-    if (!local.is_seen_lately && !is_well_known(local, 0.5 * relative_m2)) continue;
+    if (!local.is_seen_lately && !is_well_known(local, 0.5 * relative_m2, noise_m2)) continue;
     const SignatureDistance colour =
         distance(what.signature, filter_->landmark(local.index).signature);
     const double squared = mahalanobis_sq(residual.innovation, S) + colour.squared;
@@ -72,14 +76,17 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
   return true;
 }
 
-/// Known so well that no other landmark of the kind could be meant.
-bool LocalAssociation::is_well_known(const LocalLandmark& local, double variance_m2) const {
+/// Known so well that no other landmark of the kind could be meant, but those so near it that a
+/// sighting with this noise hardly tells them apart, wherever the robot is.
+bool LocalAssociation::is_well_known(const LocalLandmark& local, double variance_m2,
+                                     double noise_m2) const {
   if (variance_m2 > kWellKnownSigmaMax_m * kWellKnownSigmaMax_m) return false;
   double nearest_m2 = std::numeric_limits<double>::infinity();
   const std::int8_t kind = filter_->landmark(local.index).kind;
   for (const LocalLandmark& other : locals_) {
     if (other.index == local.index || filter_->landmark(other.index).kind != kind) continue;
-    nearest_m2 = std::min(nearest_m2, (other.p_map_m - local.p_map_m).squaredNorm());
+    const double apart_m2 = (other.p_map_m - local.p_map_m).squaredNorm();
+    if (apart_m2 > kToldApartSq * noise_m2) nearest_m2 = std::min(nearest_m2, apart_m2);
   }
   return variance_m2 < kSigmaPerSpacing * kSigmaPerSpacing * nearest_m2;
 }

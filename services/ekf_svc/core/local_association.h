@@ -49,7 +49,7 @@ class LocalAssociation {
   };
 
   bool are_all_taken(std::size_t offer) const;
-  bool is_well_known(const LocalLandmark& local, double variance_m2) const;
+  bool is_well_known(const LocalLandmark& local, double variance_m2, double noise_m2) const;
 
   const SlamFilter* filter_;
   std::vector<LocalLandmark> locals_;

@@ -16,6 +16,7 @@ struct OdometrySample {
   double turn_rad = 0.0;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (distance, turn)
   Pose2 T_odom_robot;                                    ///< sum of the increments
+  bool is_asked_for = false;  ///< speeds the robot was told, not what its wheels counted
 };
 
 /// What became of a report.

@@ -1,7 +1,10 @@
 #include "services/ekf_svc/core/slam.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "services/ekf_svc/core/arc_innovation.h"
 #include "services/ekf_svc/core/range_outliers.h"
 #include "services/ekf_svc/core/signature.h"
 
@@ -21,6 +24,8 @@ constexpr int kRefusalsMax = 5;  // in a row, of one landmark while others are a
 constexpr double kWideningPosition_m = 0.1;
 constexpr double kWideningHeading_rad = 0.1;
 constexpr double kWideningRatioMax = 32.0;
+
+constexpr double kRangeSigmaRatioMax = 0.2;  // of ranges worth calibrating
 
 constexpr std::int32_t kTimesSeenMax = 1'000'000'000;
 constexpr std::size_t kSightingsExpected = 256;  // memory for more is taken when they come
@@ -57,15 +62,36 @@ Slam::Slam(const EkfParams& params)
       tentative_(filter_),
       closure_(filter_),
       twins_(filter_) {
-  if (params.self_calibration) {
-    filter_.free_calibration({params.calibration_sigma_ratio, params.calibration_sigma_ratio,
-                              params.calibration_sigma_rad_per_m});
-  }
+  free_calibrations();
   candidates_.reserve(kSightingsExpected);
   claimed_by_.resize(filter_.landmark_budget());
   batch_.reserve(SlamFilter::kResidualsMax);
   residuals_.reserve(SlamFilter::kResidualsMax);
   merged_.reserve(2 * SlamFilter::kResidualsMax);
+}
+
+void Slam::free_calibrations() {
+  if (!params_.self_calibration) return;
+  filter_.free_calibration({params_.calibration_sigma_ratio, params_.calibration_sigma_ratio,
+                            params_.calibration_sigma_rad_per_m},
+                           params_.calibration_sigma_m_per_rad);
+  ranges_are_free_ = false;
+}
+
+/// A sensor's ranges are no better than it says, so what repeats of their error is not either. The
+/// surest sighting of the first frame that shows anything tells how good it says they are.
+void Slam::free_ranges(std::span<const Sighting> sightings) {
+  if (!params_.self_calibration || ranges_are_free_) return;
+  double sigma_ratio = std::numeric_limits<double>::infinity();
+  for (const Sighting& seen : sightings) {
+    if (check(seen) != Verdict::kMatched) continue;
+    const PolarObservation& polar = seen.polar;
+    sigma_ratio = std::min(sigma_ratio, std::sqrt(polar.covariance(0, 0)) / polar.range_m);
+  }
+  if (!std::isfinite(sigma_ratio)) return;
+  filter_.free_range_calibration(params_.range_calibration_sigmas *
+                                 std::min(sigma_ratio, kRangeSigmaRatioMax));
+  ranges_are_free_ = true;
 }
 
 void Slam::predict(const MotionIncrement& motion) {
@@ -80,6 +106,7 @@ FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
                           std::span<Verdict> verdicts, const VirtualScan& scan) {
   FrameResult result{.seen = static_cast<int>(sightings.size())};
   candidates_.resize(sightings.size());
+  free_ranges(sightings);
   judge_all(sightings, verdicts);
   if (may_update) {
     result.pose_widened = learn_from_refusals(sightings, verdicts);
@@ -98,7 +125,8 @@ FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
 }
 
 BodyObservation Slam::body(const Sighting& sighting) const {
-  BodyObservation seen = to_body(sighting.polar, params_.range_bias_m, params_.lateral_bias_m);
+  BodyObservation seen = to_body(sighting.polar, params_.range_bias_m, params_.lateral_bias_m,
+                                 filter_.range_calibration());
   seen.covariance_m2 *= noise_monitor_.ratio();
   return seen;
 }
@@ -176,15 +204,27 @@ void Slam::update(std::span<const Sighting> sightings, std::span<Verdict> verdic
   update_batch(sightings, verdicts);
 }
 
+Residual Slam::softened_residual(std::size_t l, const BodyObservation& seen) const {
+  const Residual chord = filter_.observation_residual(l, seen);
+  Residual residual = unrolled(filter_, chord, seen);
+  const Eigen::Matrix2d S = filter_.innovation_covariance(residual);
+  if (residual.innovation == chord.innovation) {
+    residual.softening = range_softening(residual, seen.p_robot_m, S, params_.range_outlier_sigmas);
+    return residual;
+  }
+  const Eigen::Vector2d along = (seen.p_robot_m - chord.innovation).normalized();
+  Residual range_alone = residual;
+  range_alone.innovation = along * along.dot(residual.innovation);
+  residual.softening =
+      range_softening(range_alone, seen.p_robot_m.norm() * along, S, params_.range_outlier_sigmas);
+  return residual;
+}
+
 void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
   residuals_.clear();
   for (const std::size_t i : batch_) {
     const BodyObservation seen = body(sightings[i]);
-    Residual residual = filter_.observation_residual(candidates_[i].landmark, seen);
-    residual.softening =
-        range_softening(residual, seen.p_robot_m, filter_.innovation_covariance(residual),
-                        params_.range_outlier_sigmas);
-    residuals_.push_back(residual);
+    residuals_.push_back(softened_residual(candidates_[i].landmark, seen));
   }
   const bool used = filter_.update(residuals_) == UpdateResult::kUsed;
   if (used && !batch_.empty()) noise_monitor_.record(filter_.last_innovation());

@@ -75,6 +75,8 @@ class Slam {
   std::span<const Merged> merged() const { return merged_; }
 
  private:
+  void free_calibrations();
+  void free_ranges(std::span<const Sighting> sightings);
   void judge_all(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   Verdict judge(std::size_t i, const Sighting& sighting);
   void keep_best_pairs(std::span<Verdict> verdicts);
@@ -82,6 +84,7 @@ class Slam {
   void widen_pose();
   void update(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   void update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
+  Residual softened_residual(std::size_t l, const BodyObservation& seen) const;
   void note_seen(std::span<const Verdict> verdicts);
   void merge_what_is_one();
   void merge(std::span<const LandmarkPair> pairs);
@@ -97,6 +100,7 @@ class Slam {
   static constexpr double kWideningRatioTrusted = 4.0;
 
   EkfParams params_;
+  bool ranges_are_free_ = false;
   bool map_is_fixed_ = false;  // mode "localise", once in the map
   SlamFilter filter_;
   GateMonitor gate_monitor_;

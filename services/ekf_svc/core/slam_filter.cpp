@@ -39,15 +39,16 @@ void SlamFilter::predict(const MotionIncrement& motion) {
   const RobotMatrix moved_robot =
       moved_covariance(heading(), robot_covariance(), motion);  // before x_ changes
   const RobotMatrix F = transition(heading(), motion);
+  const Eigen::Matrix<double, 3, 4> D = F.block<3, 4>(0, kCalibration);
   const Eigen::Vector2d shift = rotation2(heading()) * motion.translation_m;
 
-  std::array<double*, kRobotSize> rows;
-  for (std::size_t i = 0; i < kRobotSize; ++i) rows[i] = covariance_.row(i);
+  std::array<double*, kRangeCalibration> rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = covariance_.row(i);
   for (std::size_t j = kRobotSize; j < size(); ++j) {
     Eigen::Vector3d with_pose(rows[0][j], rows[1][j], rows[2][j]);
-    const Eigen::Vector3d with_calibration(rows[3][j], rows[4][j], rows[5][j]);
+    const Eigen::Vector4d with_calibration(rows[3][j], rows[4][j], rows[5][j], rows[6][j]);
     with_pose.tail<2>() += F.block<2, 1>(1, 0) * with_pose(0);
-    with_pose += F.topRightCorner<3, 3>() * with_calibration;
+    with_pose += D * with_calibration;
     for (std::size_t i = 0; i < kPoseSize; ++i) {
       rows[i][j] = with_pose(static_cast<Eigen::Index>(i));
     }
@@ -64,8 +65,17 @@ void SlamFilter::predict(const MotionIncrement& motion) {
   x[kPosition + 1] += shift.y();
 }
 
-void SlamFilter::free_calibration(const Eigen::Vector3d& sigma) {
+void SlamFilter::free_calibration(const Eigen::Vector3d& sigma, double turn_loss_sigma_m_per_rad) {
   drift_calibration(sigma.cwiseProduct(sigma));
+  covariance_.set(
+      kTurnLoss, kTurnLoss,
+      covariance_.at(kTurnLoss, kTurnLoss) + turn_loss_sigma_m_per_rad * turn_loss_sigma_m_per_rad);
+}
+
+void SlamFilter::free_range_calibration(double sigma) {
+  for (const std::size_t i : {kRangeCalibration, kRangeCalibration + 1}) {
+    covariance_.set(i, i, covariance_.at(i, i) + sigma * sigma);
+  }
 }
 
 void SlamFilter::drift_calibration(const Eigen::Vector3d& variance) {
@@ -92,20 +102,26 @@ bool SlamFilter::add(const BodyObservation& seen, const Landmark& landmark) {
   const double* with_heading = covariance_.row(kHeading);
   const double* with_x = covariance_.row(kPosition);
   const double* with_y = covariance_.row(kPosition + 1);
+  const double* with_tilt = covariance_.row(kRangeCalibration);
+  const double* with_curvature = covariance_.row(kRangeCalibration + 1);
+  const Eigen::Matrix2d per_calibration = -rotation * seen.per_calibration;
   // Rows of the robot first: the others need only them.
-  Eigen::Matrix<double, 2, 3> G;
-  G << lever.x(), 1.0, 0.0, lever.y(), 0.0, 1.0;
-  const Eigen::Matrix<double, 2, 6> with_robot = G * robot_covariance().topRows<3>();
+  Eigen::Matrix<double, 2, kRobotSize> G = Eigen::Matrix<double, 2, kRobotSize>::Zero();
+  G.leftCols<3>() << lever.x(), 1.0, 0.0, lever.y(), 0.0, 1.0;
+  G.rightCols<2>() = per_calibration;
+  const Eigen::Matrix<double, 2, kRobotSize> with_robot = G.lazyProduct(robot_covariance());
   for (std::size_t j = kRobotSize; j < n; ++j) {
-    covariance_.row(j)[n] = lever.x() * with_heading[j] + with_x[j];
-    covariance_.row(j)[n + 1] = lever.y() * with_heading[j] + with_y[j];
+    const Eigen::Vector2d with_ranges =
+        per_calibration * Eigen::Vector2d(with_tilt[j], with_curvature[j]);
+    covariance_.row(j)[n] = lever.x() * with_heading[j] + with_x[j] + with_ranges.x();
+    covariance_.row(j)[n + 1] = lever.y() * with_heading[j] + with_y[j] + with_ranges.y();
   }
   for (std::size_t j = 0; j < kRobotSize; ++j) {
     covariance_.row(j)[n] = with_robot(0, static_cast<Eigen::Index>(j));
     covariance_.row(j)[n + 1] = with_robot(1, static_cast<Eigen::Index>(j));
   }
-  const Eigen::Matrix2d own = with_robot.leftCols<3>() * G.transpose() +
-                              rotation * seen.covariance_m2 * rotation.transpose();
+  const Eigen::Matrix2d own =
+      with_robot * G.transpose() + rotation * seen.covariance_m2 * rotation.transpose();
   covariance_.set(n, n, own(0, 0));
   covariance_.set(n, n + 1, 0.5 * (own(0, 1) + own(1, 0)));
   covariance_.set(n + 1, n + 1, own(1, 1));
@@ -165,8 +181,10 @@ Eigen::Matrix3d SlamFilter::pose_covariance() const {
 
 OdometryCalibration SlamFilter::calibration() const {
   const double* value = x_.data() + kCalibration;
-  return {{value[0], value[1], value[2]}};
+  return {{value[0], value[1], value[2]}, value[3]};
 }
+
+RangeCalibration SlamFilter::range_calibration() const { return {point(kRangeCalibration)}; }
 
 RobotMatrix SlamFilter::robot_covariance() const {
   RobotMatrix P;

@@ -13,6 +13,7 @@
 #include "services/ekf_svc/core/landmark_pair.h"
 #include "services/ekf_svc/core/map_snapshot.h"
 #include "services/ekf_svc/core/motion.h"
+#include "services/ekf_svc/core/range_calibration.h"
 #include "services/ekf_svc/core/residual.h"
 
 namespace roomwise::ekf {
@@ -37,8 +38,8 @@ struct InnovationStatistics {
 /// The mathematics of EKF-SLAM in the plane: state, covariance and what may be done to them. Which
 /// measurement belongs to which landmark is decided elsewhere.
 ///
-/// State for L landmarks, n = 6 + 2 L, in the map frame (the pose at construction):
-///   x  n      [heading | x y | OdometryCalibration | l0x l0y | l1x l1y | ...]
+/// State for L landmarks, n = 9 + 2 L, in the map frame (the pose at construction):
+///   x  n      [heading | x y | OdometryCalibration | RangeCalibration | l0x l0y | l1x l1y | ...]
 ///   P  n x n  covariance of the additive error, same order
 ///
 /// The invariant form keeps P of additive errors d, in which prediction costs O(n), and is
@@ -65,8 +66,11 @@ class SlamFilter {
 
   /// Lets the odometry's calibration be estimated, from these sigmas on. At construction they are
   /// 0: odometry is taken at its word.
-  void free_calibration(const Eigen::Vector3d& sigma);
-  /// Adds variance to the calibration: tyres wear, floors change. O(1).
+  void free_calibration(const Eigen::Vector3d& sigma, double turn_loss_sigma_m_per_rad = 0.0);
+  /// Lets the ranges' calibration be estimated, either number from this sigma on. At construction
+  /// it is 0: ranges are taken at their word.
+  void free_range_calibration(double sigma);
+  /// Adds variance to the odometry's calibration: tyres wear, floors change. O(1).
   void drift_calibration(const Eigen::Vector3d& variance);
 
   /// From now on updates move the robot alone, and know how uncertain the map is (Schmidt's
@@ -76,7 +80,8 @@ class SlamFilter {
   /// Adds variance to the pose alone: something moved the robot that odometry did not see. O(n).
   void widen_pose(double position_sigma_m, double heading_sigma_rad);
 
-  /// Landmark `l` seen from the robot: z = R^T (f - p) + noise.
+  /// Landmark `l` seen from the robot: z = R^T (f - p) + per_calibration c + noise, c the error of
+  /// the range calibration `seen` was corrected by: the present one.
   Residual observation_residual(std::size_t l, const BodyObservation& seen) const;
 
   /// Landmarks `i` and `j` are one: 0 = R^T (f_i - f_j) + noise of `sigma_m` an axis. Written in
@@ -96,7 +101,8 @@ class SlamFilter {
   static constexpr std::size_t kResidualsMax = 32;
 
   /// Appends a landmark at the place it is seen, correlated with everything: f = p + R z,
-  /// P_f. = G P_pose., P_ff = G P_pose G^T + R covariance R^T, G = [J (f - p), I]. O(n).
+  /// P_f. = G P_robot., P_ff = G P_robot G^T + R covariance R^T,
+  /// G = [J (f - p), I, 0, -R per_calibration]. O(n).
   /// False, and nothing done, if the budget is used up. An observation that adds must not also
   /// update. The filter sets map_id, unless it is tentative.
   [[nodiscard]] bool add(const BodyObservation& seen, const Landmark& landmark);
@@ -116,7 +122,8 @@ class SlamFilter {
   /// Covariance of (heading, x, y). Shape 3 x 3 [rad^2, rad m, m^2].
   Eigen::Matrix3d pose_covariance() const;
   OdometryCalibration calibration() const;
-  /// Covariance of (heading, x, y, calibration). Shape 6 x 6.
+  RangeCalibration range_calibration() const;
+  /// Covariance of (heading, x, y, OdometryCalibration, RangeCalibration). Shape 9 x 9.
   RobotMatrix robot_covariance() const;
 
   std::size_t landmark_count() const { return landmarks_.size(); }
@@ -142,14 +149,16 @@ class SlamFilter {
   static constexpr std::size_t kPosition = 1;
   static constexpr std::size_t kCalibration = 3;
   static constexpr std::size_t kPoseSize = 3;
-  static constexpr std::size_t kRobotSize = 6;
+  static constexpr std::size_t kTurnLoss = 6;  // of the odometry's calibration
+  static constexpr std::size_t kRangeCalibration = 7;
+  static constexpr std::size_t kRobotSize = 9;
   static constexpr std::size_t landmark_index(std::size_t l) { return kRobotSize + 2 * l; }
 
   /// The map without the robot and what is tentative. May allocate.
   void save(MapSnapshot& map) const;
 
-  /// Goes on with a saved map, from a pose that owes nothing to it. What was known of the
-  /// odometry's calibration stays. False, and nothing done, if the budget is smaller.
+  /// Goes on with a saved map, from a pose that owes nothing to it. What was known of
+  /// odometry and ranges stays. False, and nothing done, if the budget is smaller.
   [[nodiscard]] bool restore(const MapSnapshot& map, const Pose2& pose,
                              const Eigen::Matrix3d& pose_covariance);
 

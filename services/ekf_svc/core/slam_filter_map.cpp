@@ -31,7 +31,7 @@ void SlamFilter::save(MapSnapshot& map) const {
     }
   }
   map.calibration = calibration();
-  map.calibration_covariance = robot_covariance().bottomRightCorner<3, 3>();
+  map.calibration_covariance = robot_covariance().block<3, 3>(kCalibration, kCalibration);
   map.next_map_id = next_map_id_;
 }
 
@@ -49,20 +49,20 @@ void SlamFilter::reset() {
 bool SlamFilter::restore(const MapSnapshot& map, const Pose2& pose,
                          const Eigen::Matrix3d& pose_covariance) {
   if (map.landmarks.size() > budget_) return false;
-  const OdometryCalibration known = calibration();
-  const Eigen::Matrix3d known_covariance = robot_covariance().bottomRightCorner<3, 3>();
+  const std::vector<double> known(x_.data() + kCalibration, x_.data() + kRobotSize);
+  const RobotMatrix known_covariance = robot_covariance();
   reset();
   double* x = x_.data();
   x[kHeading] = wrap_angle(pose.heading_rad);
   x[kPosition] = pose.x_m;
   x[kPosition + 1] = pose.y_m;
-  for (std::size_t i = 0; i < 3; ++i) {
+  std::copy(known.begin(), known.end(), x + kCalibration);
+  for (std::size_t i = 0; i < kRobotSize; ++i) {
     const auto r = static_cast<Eigen::Index>(i);
-    x[kCalibration + i] = known.value(r);
-    for (std::size_t j = i; j < 3; ++j) {
+    for (std::size_t j = i; j < kRobotSize; ++j) {
       const auto c = static_cast<Eigen::Index>(j);
-      covariance_.set(i, j, pose_covariance(r, c));
-      covariance_.set(kCalibration + i, kCalibration + j, known_covariance(r, c));
+      if (j < kPoseSize) covariance_.set(i, j, pose_covariance(r, c));
+      if (i >= kPoseSize) covariance_.set(i, j, known_covariance(r, c));
     }
   }
   landmarks_.assign(map.landmarks.begin(), map.landmarks.end());

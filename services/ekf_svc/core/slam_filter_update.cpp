@@ -31,22 +31,29 @@ bool cholesky(Matrix& matrix, std::size_t dimension) {
   return true;
 }
 
-/// A residual's H: where its columns stand, and what they hold.
+/// A residual's H: where its columns stand, and what they hold. Those of the range calibration come
+/// last, and most residuals have none.
 struct SparseJacobian {
-  std::array<std::size_t, 5> columns;
-  Eigen::Matrix<double, 2, 5> values;
+  std::array<std::size_t, 7> columns;
+  Eigen::Matrix<double, 2, 7> values;
+  std::size_t count;
 };
 
 SparseJacobian sparse(const Residual& residual) {
   const auto& [a, b] = residual.points;
-  SparseJacobian H{{SlamFilter::kHeading, a.index, a.index + 1, b.index, b.index + 1}, {}};
-  H.values << residual.heading, a.value, b.value;
+  constexpr std::size_t kRanges = SlamFilter::kRangeCalibration;
+  SparseJacobian H{
+      {SlamFilter::kHeading, a.index, a.index + 1, b.index, b.index + 1, kRanges, kRanges + 1},
+      {},
+      residual.calibration.isZero(0.0) ? 5U : 7U};
+  H.values << residual.heading, a.value, b.value, residual.calibration;
   return H;
 }
 
 bool residual_is_finite(const Residual& residual) {
   return residual.innovation.allFinite() && residual.noise.allFinite() &&
-         residual.softening.allFinite() && residual.heading.allFinite();
+         residual.softening.allFinite() && residual.heading.allFinite() &&
+         residual.calibration.allFinite();
 }
 
 bool is_softened(const Residual& residual) { return !residual.softening.isZero(0.0); }
@@ -83,6 +90,7 @@ Residual SlamFilter::observation_residual(std::size_t l, const BodyObservation& 
   return {.innovation = seen.p_robot_m - to_robot * offset,
           .noise = seen.covariance_m2,
           .heading = -(to_robot * quarter_turn(offset)),
+          .calibration = seen.per_calibration,
           .points = {{{kPosition, -to_robot}, {index, to_robot}}}};
 }
 
@@ -97,9 +105,9 @@ Residual SlamFilter::equality_residual(std::size_t i, std::size_t j, double sigm
 
 Eigen::Matrix2d SlamFilter::cross_covariance(const Residual& a, const Residual& b) const {
   const SparseJacobian H_a = sparse(a), H_b = sparse(b);
-  Eigen::Matrix<double, 5, 5> P;
-  for (std::size_t i = 0; i < 5; ++i) {
-    for (std::size_t j = 0; j < 5; ++j) {
+  Eigen::Matrix<double, 7, 7> P = Eigen::Matrix<double, 7, 7>::Zero();
+  for (std::size_t i = 0; i < H_a.count; ++i) {
+    for (std::size_t j = 0; j < H_b.count; ++j) {
       P(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           covariance_.at(H_a.columns[i], H_b.columns[j]);
     }
@@ -153,6 +161,10 @@ void SlamFilter::gather_gain(const Residual& residual, double* first, double* se
     }
   };
   accumulate(kHeading, residual.heading);
+  if (!residual.calibration.isZero(0.0)) {
+    accumulate(kRangeCalibration, residual.calibration.col(0));
+    accumulate(kRangeCalibration + 1, residual.calibration.col(1));
+  }
   for (const JacobianBlock& block : residual.points) {
     accumulate(block.index, block.value.col(0));
     accumulate(block.index + 1, block.value.col(1));
@@ -167,6 +179,7 @@ void SlamFilter::fill_innovation_covariance(std::span<const Residual> residuals,
     for (std::size_t c = 0; c < 2 * (a + 1); ++c) {
       const double* g = gain(c);
       Eigen::Vector2d row = residual.heading * g[kHeading];
+      row += residual.calibration * Eigen::Vector2d(g[kRangeCalibration], g[kRangeCalibration + 1]);
       for (const JacobianBlock& block : residual.points) {
         row += block.value * Eigen::Vector2d(g[block.index], g[block.index + 1]);
       }

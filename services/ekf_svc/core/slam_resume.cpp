@@ -41,9 +41,7 @@ void Slam::begin_anew() {
   filter_.reset();
   gate_monitor_.clear();
   lifecycle_.clear();
-  if (!params_.self_calibration) return;
-  filter_.free_calibration({params_.calibration_sigma_ratio, params_.calibration_sigma_ratio,
-                            params_.calibration_sigma_rad_per_m});
+  free_calibrations();
 }
 
 bool Slam::resume(const MapSnapshot& map, const MapSnapshot& local,

@@ -131,5 +131,62 @@ RC_GTEST_PROP(Motion, MovedCovarianceUsesTheNumericJacobians, ()) {
   RC_ASSERT((actual - expected).cwiseAbs().maxCoeff() < 1e-8);
 }
 
+RC_GTEST_PROP(Motion, WhatCalibrationDoesIsTheNumericJacobian, ()) {
+  const auto end = [](const OdometryCalibration& calibration, const MotionStep& first,
+                      const MotionStep& second) {
+    MotionIncrement motion;
+    motion.append(first, calibration);
+    motion.append(second, calibration);
+    return motion;
+  };
+  const auto asked_for = [] {
+    return speed_step(in_range(-1.0, 1.0), in_range(-2.0, 2.0), Eigen::Matrix2d::Zero());
+  };
+  const MotionStep first = asked_for(), second = asked_for();
+  const OdometryCalibration held{{0.05, -0.03, 0.02}, 0.04};
+  constexpr double kStep = 1e-5;
+  for (int k = 0; k < 4; ++k) {
+    OdometryCalibration more = held, less = held;
+    (k < 3 ? more.value(k) : more.turn_loss_m_per_rad) += kStep;
+    (k < 3 ? less.value(k) : less.turn_loss_m_per_rad) -= kStep;
+    const MotionIncrement high = end(more, first, second), low = end(less, first, second);
+    const Eigen::Vector2d by = (high.translation_m - low.translation_m) / (2.0 * kStep);
+    const Eigen::Vector3d numeric((high.turn_rad - low.turn_rad) / (2.0 * kStep), by.x(), by.y());
+    RC_ASSERT((end(held, first, second).per_calibration.col(k) - numeric).norm() < 1e-7);
+  }
+}
+
+RC_GTEST_PROP(Motion, PartsOfASpeedLoseWhatTheWholeLoses, ()) {
+  const MotionStep whole =
+      speed_step(in_range(-1.0, 1.0), in_range(-2.0, 2.0), Eigen::Matrix2d::Zero());
+  const double ratio = in_range(0.0, 1.0);
+  const Eigen::Vector3d twist = ratio * whole.twist;
+  RC_ASSERT(std::abs(part_of(whole, ratio).curve_rad -
+                     OdometryCalibration::curve_rad(twist(1), twist(0))) < 1e-12);
+}
+
+TEST(Motion, SpeedsLoseInCurvesAndNeitherStraightOnNorOnTheSpot) {
+  const OdometryCalibration loses{{0.0, 0.0, 0.0}, 0.09};
+  const auto way_m = [&](double distance_m, double turn_rad) {
+    MotionIncrement motion;
+    motion.append(speed_step(distance_m, turn_rad, Eigen::Matrix2d::Zero()), loses);
+    return std::copysign(motion.path_m, distance_m);
+  };
+  EXPECT_NEAR(way_m(0.3, 0.0), 0.3, 1e-12);
+  EXPECT_NEAR(way_m(0.3, 1.0), 0.3 - 0.09, 1e-12);
+  EXPECT_NEAR(way_m(0.3, -1.0), 0.3 - 0.09, 1e-12);
+  EXPECT_NEAR(way_m(-0.3, 1.0), -0.3 + 0.09, 1e-12);
+  EXPECT_NEAR(way_m(0.0, 1.0), 0.0, 1e-12);
+  EXPECT_GT(way_m(0.01, 1.0), 0.0);  // never backwards
+}
+
+TEST(Motion, CountedWheelsLoseNothingInCurves) {
+  const OdometryCalibration loses{{0.0, 0.0, 0.0}, 0.09};
+  MotionIncrement motion;
+  motion.append(arc_step(0.3, 1.0, Eigen::Matrix2d::Zero()), loses);
+  EXPECT_NEAR(motion.path_m, 0.3, 1e-12);
+  EXPECT_TRUE(motion.per_calibration.col(3).isZero(0.0));
+}
+
 }  // namespace
 }  // namespace roomwise::ekf

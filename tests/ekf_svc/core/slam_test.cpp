@@ -110,6 +110,24 @@ TEST_F(SlamTest, WhatIsInDoubtBetweenALandmarkAndNothingStaysInDoubtBesideAnothe
   EXPECT_EQ(verdicts_[1], Verdict::kMatched);
 }
 
+// Neighbours a single sighting can hardly tell apart must not make strangers of both.
+TEST_F(SlamTest, ALandmarkWithANeighbourWithinTheNoiseIsKnownAgainAfterALongWay) {
+  const std::vector<Eigen::Vector2d> places{{3.0, 0.0}, {3.0, 0.15}, {1.0, 3.0}};
+  std::vector<Sighting> all;
+  for (const Eigen::Vector2d& place : places) {
+    all.push_back(sighting_of(truth_, place, -1));
+    all.back().polar.covariance = Eigen::Vector2d(0.01, 0.001).asDiagonal();
+  }
+  for (int i = 0; i < 20; ++i) look(all);
+  ASSERT_EQ(slam_.filter().landmark_count(), 3U);
+  drive(4.5, 0.0);
+  drive(-4.5, 0.0);
+  look({all[0], all[2]});
+  EXPECT_EQ(verdicts_[0], Verdict::kMatched);
+  EXPECT_EQ(verdicts_[1], Verdict::kMatched);
+  EXPECT_EQ(slam_.filter().landmark_count(), 3U);
+}
+
 TEST_F(SlamTest, AnotherKindIsAnotherLandmark) {
   look({sighting_of(truth_, {3.0, 0.0}, -1, 1)});
   look({sighting_of(truth_, {3.0, 0.0}, -1, 2)});
