@@ -85,6 +85,7 @@ void LandmarkDetector::mark_moving(const RgbdFrame& frame,
     if (standing_.has_stood(frame.utime, *T_odom_robot, landmark, params_.standing)) continue;
     landmark.is_moving = true;
   }
+  standing_.remember_doubts(landmarks_);
 }
 
 void LandmarkDetector::find_edges(const RgbdFrame& frame) {
