@@ -1,7 +1,6 @@
 #include "services/landmark_svc/core/virtual_scan.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -70,10 +69,9 @@ void for_each_within(const std::vector<std::uint8_t>& within, Visit visit) {
   for (std::size_t first = 0; first < within.size(); first += kWord) {
     std::uint64_t word;
     std::memcpy(&word, within.data() + first, sizeof word);
-    while (word != 0) {
-      const auto byte = static_cast<std::size_t>(std::countr_zero(word)) / 8;
-      visit(first + byte);
-      word &= ~(std::uint64_t{0xFF} << (8 * byte));
+    if (word == 0) continue;
+    for (std::size_t i = first; i < first + kWord; ++i) {
+      if (within[i] != kNothing) visit(i);
     }
   }
 }
@@ -95,7 +93,23 @@ void VirtualScan::reserve(int width_px) {
   open_px_.reserve(static_cast<std::size_t>(width_px));
 }
 
-void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
+inline bool VirtualScan::Cluster::take(float quanta, std::int16_t v_px) {
+  const float so_far = mean();
+  if (!(std::abs(quanta - so_far) <= kApart_quanta + kApart_ratio * so_far)) return false;
+  sum += quanta;
+  ++rows;
+  v_bottom_px = v_px;
+  return true;
+}
+
+inline void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
+  for (Cluster& cluster : clusters) {
+    if (cluster.rows > 0 && cluster.take(quanta, v_px)) return;
+  }
+  begin_cluster(clusters, quanta, v_px);
+}
+
+void VirtualScan::begin_cluster(Clusters& clusters, float quanta, std::int16_t v_px) {
   Cluster* place = nullptr;
   for (Cluster& cluster : clusters) {
     if (cluster.rows == 0) {
@@ -103,12 +117,6 @@ void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
       continue;
     }
     const float mean = cluster.mean();
-    if (std::abs(quanta - mean) <= kApart_quanta + kApart_ratio * mean) {
-      cluster.sum += quanta;
-      ++cluster.rows;
-      cluster.v_bottom_px = v_px;
-      return;
-    }
     // Full: the farthest gives way to what is nearer.
     const bool is_farther = mean < quanta && (!place || (place->rows > 0 && mean < place->mean()));
     if (is_farther) place = &cluster;

@@ -66,11 +66,14 @@ class VirtualScan {
     std::int16_t v_bottom_px = 0;
 
     float mean() const { return sum / static_cast<float>(rows); }
+    /// Takes a reading that is of it; false if it is not. Not for an empty one.
+    bool take(float quanta, std::int16_t v_px);
   };
   static constexpr std::size_t kClusters = 3;
   using Clusters = std::array<Cluster, kClusters>;
 
   static void add(Clusters& clusters, float quanta, std::int16_t v_px);
+  static void begin_cluster(Clusters& clusters, float quanta, std::int16_t v_px);
 
   std::vector<std::uint8_t> within_;  // of a row's columns: which reading within the slice
   std::vector<Clusters> columns_;
