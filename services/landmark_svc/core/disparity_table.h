@@ -48,6 +48,7 @@ class DisparityTable {
   /// Smallest and largest good step; no step is good if largest < smallest.
   int smallest_good_step() const { return smallest_good_step_; }
   int largest_good_step() const { return largest_good_step_; }
+  int largest_beyond_step() const { return largest_beyond_step_; }
 
   double depth_m(std::uint16_t step) const { return step * unit_m_; }
   double depth_from_quanta_m(double quanta) const { return quanta_m_ / quanta; }

@@ -21,8 +21,27 @@ constexpr double kNoise_quanta = 2.0;
 constexpr int kColumnsMax = 2 * kColumns;
 using GridRow = Eigen::Array<float, Eigen::Dynamic, 1, 0, kColumnsMax, 1>;  // on the stack
 
+int stride_px(int width_px) { return std::max(1, width_px / kColumns); }
+
+/// Columns or rows of the grid along a side of the image: the first is half a stride from its end.
+int grid_count(int side_px, int stride_px) {
+  return (side_px - stride_px / 2 + stride_px - 1) / stride_px;
+}
+
+/// Whether no good reading of a row can be within the band: above the horizon, and where the floor
+/// is farther than any. `farthest_quanta` is what the farthest good reading has.
+bool holds_no_floor(const Eigen::Vector3d& gradient, double y, double x_first, double x_last,
+                    double band_ratio, double farthest_quanta) {
+  constexpr double kRounding_quanta = 1.0;
+  const double most_quanta =
+      gradient.y() * y + gradient.z() + std::max(gradient.x() * x_first, gradient.x() * x_last);
+  return most_quanta + kNoise_quanta + kRounding_quanta < (1.0 - band_ratio) * farthest_quanta;
+}
+
+}  // namespace
+
 /// Normal equations of one round.
-struct Round {
+struct FloorFitter::Round {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   double points = 0.0;
@@ -42,41 +61,70 @@ struct Round {
   }
 };
 
+void FloorFitter::reserve(int width_px, int height_px) {
+  const int stride = stride_px(width_px);
+  const auto rows = static_cast<std::size_t>(grid_count(height_px, stride));
+  quanta_.reserve(rows * static_cast<std::size_t>(grid_count(width_px, stride)));
+  is_looked_up_.reserve(rows);
+}
+
+const float* FloorFitter::row_quanta(const DepthImage& depth, const DisparityTable& table, int row,
+                                     int columns) {
+  float* const quanta =
+      quanta_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
+  std::uint8_t& is_looked_up = is_looked_up_[static_cast<std::size_t>(row)];
+  if (is_looked_up != 0) return quanta;
+  is_looked_up = 1;
+  const int stride = stride_px(depth.width_px);
+  const auto v = static_cast<std::size_t>(stride / 2 + row * stride);
+  const std::uint16_t* steps =
+      depth.steps.data() + v * static_cast<std::size_t>(depth.width_px) + stride / 2;
+  for (int k = 0; k < columns; ++k, steps += stride) {
+    quanta[k] = static_cast<float>(table.parts(*steps)) /
+                static_cast<float>(DisparityTable::kPartsPerQuantum);
+  }
+  return quanta;
+}
+
 /// Only the lower triangle of the normal equations is filled.
-Round gather_near(const DepthImage& depth, const PinholeCamera& camera, const DisparityTable& table,
-                  const Eigen::Vector3d& gradient, double band_ratio) {
+FloorFitter::Round FloorFitter::gather_near(const DepthImage& depth, const PinholeCamera& camera,
+                                            const DisparityTable& table,
+                                            const Eigen::Vector3d& gradient, double band_ratio) {
   Round round;
-  const int stride = std::max(1, depth.width_px / kColumns);
+  const int stride = stride_px(depth.width_px);
   const int first = stride / 2;
-  const int columns = (depth.width_px - first + stride - 1) / stride;
+  const int columns = grid_count(depth.width_px, stride);
   GridRow x(columns);
   for (int k = 0; k < columns; ++k) {
     x[k] = static_cast<float>((first + k * stride - camera.cx_px) / camera.fx_px);
   }
   const auto band = static_cast<float>(band_ratio);
   constexpr auto kNoise = static_cast<float>(kNoise_quanta);
-  GridRow quanta(columns);
   GridRow off(columns);
   GridRow counts(columns);
-  for (int v = first; v < depth.height_px; v += stride) {
-    const double y = (v - camera.cy_px) / camera.fy_px;
-    for (int k = 0; k < columns; ++k) {
-      quanta[k] = static_cast<float>(table.parts(depth.at(first + k * stride, v)));
-    }
-    quanta /= static_cast<float>(DisparityTable::kPartsPerQuantum);
+  const double farthest_quanta = table.quanta_m() / DisparityTable::kDepthMax_m;
+  const auto x_first = static_cast<double>(x[0]);
+  const auto x_last = static_cast<double>(x[columns - 1]);
+  const int rows = grid_count(depth.height_px, stride);
+  for (int row = 0; row < rows; ++row) {
+    const double y = (first + row * stride - camera.cy_px) / camera.fy_px;
+    if (holds_no_floor(gradient, y, x_first, x_last, band_ratio, farthest_quanta)) continue;
+    const Eigen::Map<const GridRow> quanta(row_quanta(depth, table, row, columns), columns);
     const auto of_row = static_cast<float>(gradient.y() * y + gradient.z());
     off = quanta - of_row - static_cast<float>(gradient.x()) * x;
-    counts = (quanta > 0.0F && off.abs() <= band * quanta + kNoise).cast<float>();
+    for (int k = 0; k < columns; ++k) {  // as a loop, or it is not done many columns at a time
+      const bool is_near = std::abs(off[k]) <= band * quanta[k] + kNoise;
+      counts[k] =
+          static_cast<float>(static_cast<int>(is_near) & static_cast<int>(quanta[k] > 0.0F));
+    }
     round.add(counts, x, off, y);
   }
   return round;
 }
 
-}  // namespace
-
-std::optional<FloorView> fit_floor(const DepthImage& depth, const PinholeCamera& camera,
-                                   const DisparityTable& table,
-                                   const Eigen::Isometry3d& T_robot_camera) {
+std::optional<FloorView> FloorFitter::fit(const DepthImage& depth, const PinholeCamera& camera,
+                                          const DisparityTable& table,
+                                          const Eigen::Isometry3d& T_robot_camera) {
   const double mounted_height_m = T_robot_camera.translation().z();
   if (!(mounted_height_m >= kHeightMin_m && mounted_height_m <= kHeightMax_m)) return std::nullopt;
   const double quanta_m = table.quanta_m();
@@ -84,6 +132,11 @@ std::optional<FloorView> fit_floor(const DepthImage& depth, const PinholeCamera&
   const Eigen::Vector3d mounted = quanta_m / mounted_height_m * mounted_down;
   const double prior = 1.0 / (kPriorSigma_ratio * kPriorSigma_ratio * mounted.squaredNorm());
   const FloorView as_mounted{mounted_down, mounted_height_m, 0};
+
+  const int stride = stride_px(depth.width_px);
+  const auto rows = static_cast<std::size_t>(grid_count(depth.height_px, stride));
+  quanta_.resize(rows * static_cast<std::size_t>(grid_count(depth.width_px, stride)));
+  is_looked_up_.assign(rows, 0);
 
   Eigen::Vector3d gradient = mounted;
   int points = 0;

@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/image/rgbd_frame.h"
 #include "services/landmark_svc/core/disparity_table.h"
@@ -27,9 +29,27 @@ struct FloorView {
 /// sigma of 5 % of |g|: about 3 degrees or 5 % of the height, to keep what no floor in view tells.
 /// Falls back to the mounting with fewer than 80 readings or 15 degrees and more from it.
 ///
-/// Nothing if the mounted camera is not between 5 cm and 3 m above the floor.
-std::optional<FloorView> fit_floor(const DepthImage& depth, const PinholeCamera& camera,
-                                   const DisparityTable& table,
-                                   const Eigen::Isometry3d& T_robot_camera);
+/// Readings are looked up once for all rounds, and only in rows that can show the floor.
+class FloorFitter {
+ public:
+  /// Makes room for images of that size: fit() allocates nothing then.
+  void reserve(int width_px, int height_px);
+  /// Nothing if the mounted camera is not between 5 cm and 3 m above the floor.
+  std::optional<FloorView> fit(const DepthImage& depth, const PinholeCamera& camera,
+                               const DisparityTable& table,
+                               const Eigen::Isometry3d& T_robot_camera);
+
+ private:
+  struct Round;
+  Round gather_near(const DepthImage& depth, const PinholeCamera& camera,
+                    const DisparityTable& table, const Eigen::Vector3d& gradient,
+                    double band_ratio);
+  /// Disparities of a row of the grid [quanta]; 0: bad data.
+  const float* row_quanta(const DepthImage& depth, const DisparityTable& table, int row,
+                          int columns);
+
+  std::vector<float> quanta_;               // of the grid, row by row
+  std::vector<std::uint8_t> is_looked_up_;  // of each row
+};
 
 }  // namespace roomwise::landmark

@@ -85,6 +85,7 @@ void LandmarkDetector::mark_moving(const RgbdFrame& frame,
     if (standing_.has_stood(frame.utime, *T_odom_robot, landmark, params_.standing)) continue;
     landmark.is_moving = true;
   }
+  standing_.remember_doubts(landmarks_);
 }
 
 void LandmarkDetector::find_edges(const RgbdFrame& frame) {
@@ -135,7 +136,7 @@ void LandmarkDetector::find_landmarks(const RgbdFrame& frame) {
 
 void LandmarkDetector::find_creases(const RgbdFrame& frame) {
   const DepthImage& depth = frame.depth;
-  floor_ = fit_floor(depth, frame.depth_camera, table_, frame.T_robot_camera);
+  floor_ = floor_fitter_.fit(depth, frame.depth_camera, table_, frame.T_robot_camera);
   scan_.clear();
   if (!floor_) return;
   scan_.make(depth, frame.depth_camera, table_, *floor_, frame.T_robot_camera,
@@ -188,6 +189,7 @@ void LandmarkDetector::reserve(const DepthImage& depth) {
   // A chain has three edges, a crease a column of its own.
   const auto columns = static_cast<std::size_t>(depth.width_px);
   landmarks_.reserve(depth.size() / 3 + 1 + columns);
+  floor_fitter_.reserve(depth.width_px, depth.height_px);
   scan_.reserve(depth.width_px);
   crease_finder_.reserve(columns);
   moving_.reserve(depth.width_px);

@@ -10,6 +10,7 @@
 #include "services/landmark_svc/core/crease_finder.h"
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/edge_chains.h"
+#include "services/landmark_svc/core/floor_fit.h"
 #include "services/landmark_svc/core/jump_edges.h"
 #include "services/landmark_svc/core/landmark.h"
 #include "services/landmark_svc/core/landmark_params.h"
@@ -93,6 +94,7 @@ class LandmarkDetector {
   SlopeEdgeFinder slope_finder_;
   ChainLinker linker_;
   ChainEstimator estimator_;
+  FloorFitter floor_fitter_;
   VirtualScan scan_;
   MovingMask moving_;
   Standing standing_;

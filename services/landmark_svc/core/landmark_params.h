@@ -131,6 +131,10 @@ struct LandmarkParams {
     field("standing_age_min_s", standing.age_min_s, 0.0, 1.0);
     field("standing_age_max_s", standing.age_max_s, 0.0, 10.0);
     field("standing_age_beside_mover_min_s", standing.age_beside_mover_min_s, 0.0, 1.0);
+    field("standing_gap_beside_mover_max_s", standing.gap_beside_mover_max_s, 0.05, 1.0);
+    field("standing_age_beside_doubt_min_s", standing.age_beside_doubt_min_s, 0.0, 1.0);
+    field("standing_wary_s", standing.wary_s, 0.0, 3600.0);
+    field("standing_slow_walk_mps", standing.slow_walk_mps, 0.05, 5.0);
     field("standing_mover_reach_m", standing.mover_reach_m, 0.0, 5.0);
     field("standing_reach_m", standing.reach_m, 0.0, 1.0);
     field("standing_reach_ratio", standing.reach_ratio, 0.0, 1.0);

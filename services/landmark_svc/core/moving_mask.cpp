@@ -55,6 +55,10 @@ void MovingMask::remember(std::int64_t utime, const Pose2& T_odom_robot, const V
   for (const ScanPoint& point : scan.points()) {
     past.along_m[static_cast<std::size_t>(point.u_px)] = static_cast<float>(point.along_m);
   }
+  // Farther than anything good: seen through at least so far.
+  for (const int u_px : scan.open_px()) {
+    past.along_m[static_cast<std::size_t>(u_px)] = static_cast<float>(DisparityTable::kDepthMax_m);
+  }
   next_ = (next_ + 1) % kScans;
   known_ = std::min(known_ + 1, kScans);
   newest_utime_ = utime;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <cstring>
+
+#include "common/multiversion.h"
 
 namespace roomwise::landmark {
 namespace {
@@ -10,6 +12,12 @@ namespace {
 /// Two readings of one column are of one thing if they differ by less: 2 quanta and 3 %.
 constexpr float kApart_quanta = 2.0F;
 constexpr float kApart_ratio = 0.03F;
+
+constexpr std::size_t kWord = 8;
+
+std::size_t whole_words(int width_px) {
+  return (static_cast<std::size_t>(width_px) + kWord - 1) / kWord * kWord;
+}
 
 /// Linear in the image: at column u of a row, constant + per_column u.
 struct RowLine {
@@ -24,18 +32,47 @@ struct Slice {
   float most;
 };
 
-/// Marks the columns of a row with a good reading within the slice; they may be none of the slice
-/// by the rounding of a float. No branch and no table: compilers do many columns at once.
-void mark_within(const std::uint16_t* steps, const DisparityTable& table, const RowLine& floor,
-                 const Slice& slice, int u_begin_px, std::span<std::uint8_t> is_within) {
-  const int nearest = table.smallest_good_step();
-  const int farthest = table.largest_good_step();
-  for (std::size_t i = 0; i < is_within.size(); ++i) {
+/// What a column of a row holds of the slice.
+enum Within : std::uint8_t { kNothing = 0, kReading = 1, kReadingBeyond = 3 };
+
+/// Which steps are readings.
+struct Readings {
+  int nearest;
+  int farthest;         ///< good
+  int farthest_beyond;  ///< or bad only because it is too far
+};
+
+/// Tells of each column of a row whether its reading is within the slice; it may be none of the
+/// slice by the rounding of a float. No branch and no table: compilers do many columns at once.
+ROOMWISE_MULTIVERSION
+void mark_within(const std::uint16_t* steps, int width, const Readings& readings,
+                 const RowLine& floor, const Slice& slice, int u_begin_px, std::uint8_t* within) {
+  const auto [nearest, farthest, farthest_beyond] = readings;
+  const auto [least, most] = slice;
+  const auto [constant, per_column] = floor;
+  for (int i = 0; i < width; ++i) {
     const int step = steps[i];
-    const float ratio = static_cast<float>(step) * floor.at(u_begin_px + static_cast<int>(i));
-    is_within[i] = static_cast<std::uint8_t>(
-        static_cast<int>(step >= nearest) & static_cast<int>(step <= farthest) &
-        static_cast<int>(ratio >= slice.least) & static_cast<int>(ratio <= slice.most));
+    const float floor_here = constant + per_column * static_cast<float>(u_begin_px + i);
+    const float ratio = static_cast<float>(step) * floor_here;
+    const int is_within = static_cast<int>(step >= nearest) &
+                          static_cast<int>(step <= farthest_beyond) &
+                          static_cast<int>(ratio >= least) & static_cast<int>(ratio <= most);
+    const int is_beyond = is_within & static_cast<int>(step > farthest);
+    within[i] = static_cast<std::uint8_t>(is_within | is_beyond << 1);
+  }
+}
+
+/// Calls `visit(i)` for each column that holds something, skipping eight empty ones at a time.
+/// Beyond the last column there are zeros up to a whole word.
+template <class Visit>
+void for_each_within(const std::vector<std::uint8_t>& within, Visit visit) {
+  for (std::size_t first = 0; first < within.size(); first += kWord) {
+    std::uint64_t word;
+    std::memcpy(&word, within.data() + first, sizeof word);
+    if (word == 0) continue;
+    for (std::size_t i = first; i < first + kWord; ++i) {
+      if (within[i] != kNothing) visit(i);
+    }
   }
 }
 
@@ -51,10 +88,28 @@ RowLine row_line(const Eigen::Vector3d& g, const PinholeCamera& camera, int v_px
 void VirtualScan::reserve(int width_px) {
   columns_.reserve(static_cast<std::size_t>(width_px));
   points_.reserve(static_cast<std::size_t>(width_px));
-  is_within_.reserve(static_cast<std::size_t>(width_px));
+  within_.reserve(whole_words(width_px));
+  beyond_rows_.reserve(static_cast<std::size_t>(width_px));
+  open_px_.reserve(static_cast<std::size_t>(width_px));
 }
 
-void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
+inline bool VirtualScan::Cluster::take(float quanta, std::int16_t v_px) {
+  const float so_far = mean();
+  if (!(std::abs(quanta - so_far) <= kApart_quanta + kApart_ratio * so_far)) return false;
+  sum += quanta;
+  ++rows;
+  v_bottom_px = v_px;
+  return true;
+}
+
+inline void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
+  for (Cluster& cluster : clusters) {
+    if (cluster.rows > 0 && cluster.take(quanta, v_px)) return;
+  }
+  begin_cluster(clusters, quanta, v_px);
+}
+
+void VirtualScan::begin_cluster(Clusters& clusters, float quanta, std::int16_t v_px) {
   Cluster* place = nullptr;
   for (Cluster& cluster : clusters) {
     if (cluster.rows == 0) {
@@ -62,12 +117,6 @@ void VirtualScan::add(Clusters& clusters, float quanta, std::int16_t v_px) {
       continue;
     }
     const float mean = cluster.mean();
-    if (std::abs(quanta - mean) <= kApart_quanta + kApart_ratio * mean) {
-      cluster.sum += quanta;
-      ++cluster.rows;
-      cluster.v_bottom_px = v_px;
-      return;
-    }
     // Full: the farthest gives way to what is nearer.
     const bool is_farther = mean < quanta && (!place || (place->rows > 0 && mean < place->mean()));
     if (is_farther) place = &cluster;
@@ -79,7 +128,7 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
                        const DisparityTable& table, const FloorView& floor,
                        const Eigen::Isometry3d& T_robot_camera, const PixelRectangle& region,
                        const VirtualScanParams& params) {
-  points_.clear();
+  clear();
   const Eigen::Vector3d ahead = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d level = ahead - ahead.dot(floor.down_camera) * floor.down_camera;
   const Eigen::Vector3d mounted_ahead = T_robot_camera.linear().col(2);
@@ -97,24 +146,28 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
                     static_cast<float>(1.0 - params.height_low_m / floor.height_m)};
 
   columns_.assign(static_cast<std::size_t>(region.width_px()), Clusters{});
-  is_within_.assign(static_cast<std::size_t>(region.width_px()), 0);
+  within_.assign(whole_words(region.width_px()), kNothing);
+  beyond_rows_.assign(static_cast<std::size_t>(region.width_px()), 0);
   const int step = std::max(1, params.row_step_px * depth.height_px / 480);
+  const Readings readings{table.smallest_good_step(), table.largest_good_step(),
+                          table.largest_beyond_step()};
   constexpr float kToQuanta = 1.0F / DisparityTable::kPartsPerQuantum;
   for (int v = region.v_begin_px; v < region.v_end_px; v += step) {
     const RowLine along_ratio = row_line(along, camera, v);
     const std::uint16_t* const steps =
         depth.steps.data() +
         static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width_px) + region.u_begin_px;
-    mark_within(steps, table, row_line(gradient, camera, v), slice, region.u_begin_px, is_within_);
-    for (int u = region.u_begin_px; u < region.u_end_px; ++u) {
-      const int i = u - region.u_begin_px;
-      if (is_within_[static_cast<std::size_t>(i)] == 0) continue;
+    mark_within(steps, region.width_px(), readings, row_line(gradient, camera, v), slice,
+                region.u_begin_px, within_.data());
+    for_each_within(within_, [&](std::size_t i) {
+      if (within_[i] == kReadingBeyond) {
+        ++beyond_rows_[i];
+        return;
+      }
       const float quanta = static_cast<float>(table.parts(steps[i])) * kToQuanta;
-      const float ratio = along_ratio.at(u);
-      if (ratio < 0.1F) continue;
-      add(columns_[static_cast<std::size_t>(u - region.u_begin_px)], quanta / ratio,
-          static_cast<std::int16_t>(v));
-    }
+      const float ratio = along_ratio.at(region.u_begin_px + static_cast<int>(i));
+      if (ratio >= 0.1F) add(columns_[i], quanta / ratio, static_cast<std::int16_t>(v));
+    });
   }
 
   const double rows_min = std::max(2.0, params.rows_min_px * depth.height_px / 480.0);
@@ -124,7 +177,12 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
     for (const Cluster& c : columns_[static_cast<std::size_t>(u - region.u_begin_px)]) {
       if (c.rows >= rows_min && (!nearest || c.mean() > nearest->mean())) nearest = &c;
     }
-    if (!nearest) continue;
+    if (!nearest) {
+      if (beyond_rows_[static_cast<std::size_t>(u - region.u_begin_px)] >= rows_min) {
+        open_px_.push_back(u);
+      }
+      continue;
+    }
     const double v = 0.5 * (nearest->v_top_px + nearest->v_bottom_px);
     const Eigen::Vector3d ray((u - camera.cx_px) / camera.fx_px, (v - camera.cy_px) / camera.fy_px,
                               1.0);

@@ -44,10 +44,16 @@ class VirtualScan {
   void make(const DepthImage& depth, const PinholeCamera& camera, const DisparityTable& table,
             const FloorView& floor, const Eigen::Isometry3d& T_robot_camera,
             const PixelRectangle& region, const VirtualScanParams& params);
-  void clear() { points_.clear(); }
+  void clear() {
+    points_.clear();
+    open_px_.clear();
+  }
 
   /// Columns ascending.
   const std::vector<ScanPoint>& points() const { return points_; }
+  /// Columns without a point that have readings beyond 4095 mm within the slice: they say no
+  /// distance, but that nothing nearer stands there. Ascending.
+  const std::vector<int>& open_px() const { return open_px_; }
   /// Level viewing direction, robot frame, and where the camera is.
   const Eigen::Vector2d& forward() const { return forward_; }
   const Eigen::Vector2d& origin_m() const { return origin_m_; }
@@ -60,15 +66,20 @@ class VirtualScan {
     std::int16_t v_bottom_px = 0;
 
     float mean() const { return sum / static_cast<float>(rows); }
+    /// Takes a reading that is of it; false if it is not. Not for an empty one.
+    bool take(float quanta, std::int16_t v_px);
   };
   static constexpr std::size_t kClusters = 3;
   using Clusters = std::array<Cluster, kClusters>;
 
   static void add(Clusters& clusters, float quanta, std::int16_t v_px);
+  static void begin_cluster(Clusters& clusters, float quanta, std::int16_t v_px);
 
-  std::vector<std::uint8_t> is_within_;  // of a row's columns: a reading within the slice
+  std::vector<std::uint8_t> within_;  // of a row's columns: which reading within the slice
   std::vector<Clusters> columns_;
+  std::vector<std::uint16_t> beyond_rows_;  // of each column
   std::vector<ScanPoint> points_;
+  std::vector<int> open_px_;
   Eigen::Vector2d forward_{1.0, 0.0};
   Eigen::Vector2d origin_m_{0.0, 0.0};
 };

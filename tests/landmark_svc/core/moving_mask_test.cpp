@@ -39,6 +39,15 @@ TEST(VirtualScan, IsWhereTheThingsAre) {
   }
 }
 
+TEST(VirtualScan, TellsReadingsBeyondFromHoles) {
+  const VirtualScan scan = scan_of(6.0, 3.3, 60, 90);
+  EXPECT_EQ(scan.points().size(), 30U);
+  ASSERT_EQ(scan.open_px().size(), static_cast<std::size_t>(kWidth_px - 30));
+  for (const int u_px : scan.open_px()) EXPECT_TRUE(u_px < 60 || u_px >= 90) << u_px;
+  EXPECT_TRUE(scan_of(0.0, 3.3, 60, 90).open_px().empty());
+  EXPECT_TRUE(scan_of(65.535, 3.3, 60, 90).open_px().empty()) << "-1 is no reading";
+}
+
 TEST(MovingMask, FindsWhatCameAndLeavesWhatStands) {
   MovingMask mask;
   const MovingParams params;
@@ -51,6 +60,21 @@ TEST(MovingMask, FindsWhatCameAndLeavesWhatStands) {
   for (const auto& p_m : mask.points_m()) EXPECT_NEAR(p_m.x(), 1.5, 0.05);
   EXPECT_TRUE(mask.covers(mask.points_m().front(), params));
   EXPECT_FALSE(mask.covers({2.5, 0.9}, params));
+}
+
+// Three metres off in a hall nothing good lies behind who walks, but readings beyond 4095 mm do.
+TEST(MovingMask, FindsWhatComesBeforeReadingsBeyond) {
+  const auto moving_before = [](double wall_m) {
+    MovingMask mask;
+    for (int i = 0; i < 6; ++i) {
+      const int begin = 20 + 12 * i;
+      const VirtualScan scan = scan_of(wall_m, 3.3, begin, begin + 30);
+      mask.update(100'000 * i, {}, scan, kCamera, kWidth_px, {});
+    }
+    return mask.points_m().size();
+  };
+  EXPECT_GT(moving_before(6.0), 0U);
+  EXPECT_EQ(moving_before(0.0), 0U) << "holes that far off are unknown, not free";
 }
 
 TEST(MovingMask, KeepsQuietWhileTheRobotDrivesPastThingsAtRest) {

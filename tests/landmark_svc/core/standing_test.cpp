@@ -53,6 +53,61 @@ TEST(Standing, WhoWalkedAndTurnsHasNotStoodYet) {
   EXPECT_TRUE(stood_after(true, 0.8)) << "what stands elsewhere is not in doubt";
 }
 
+TEST(Standing, WhoTurnsRoundAndComesBackHasNotStood) {
+  const auto stood_after = [](double speed_mps) {
+    Standing standing;
+    const auto place_at = [speed_mps](int i) {
+      return at(2.5, 0.3 + 1e-6 * speed_mps * static_cast<double>(kFrame_us * std::abs(10 - i)));
+    };
+    for (int i = 0; i < 20; ++i) {
+      Landmark walker = place_at(i);
+      walker.is_moving = i == 0;
+      standing.remember(i * kFrame_us, {}, {walker});
+    }
+    return standing.has_stood(20 * kFrame_us, {}, place_at(20), {});
+  };
+  for (const double speed_mps : {0.64, 1.1}) EXPECT_FALSE(stood_after(speed_mps)) << speed_mps;
+  EXPECT_TRUE(stood_after(0.0));
+}
+
+/// Whether what was seen twice, `apart` frames apart, has stood, with another thing 0.3 m beside it
+/// that was in doubt in between; `mover` walked by elsewhere a second before, or did not.
+bool stands_beside_doubt(bool mover, int apart) {
+  Standing standing;
+  Landmark passer = at(2.5, -1.5);
+  passer.is_moving = mover;
+  standing.remember(0, {}, {passer});
+  const Landmark seen = at(2.5, 0.3);
+  Landmark doubtful = at(2.5, 0.6, LandmarkKind::kPole);
+  standing.remember(31 * kFrame_us, {}, {seen});
+  for (int i = 1; i < apart; ++i) standing.remember((31 + i) * kFrame_us, {}, {doubtful});
+  doubtful.is_moving = true;
+  standing.remember_doubts({doubtful});
+  return standing.has_stood((31 + apart) * kFrame_us, {}, seen, {});
+}
+
+TEST(Standing, BesideWhatIsInDoubtItTakesLongerWherePeopleWalk) {
+  EXPECT_FALSE(stands_beside_doubt(true, 7));
+  EXPECT_TRUE(stands_beside_doubt(true, 13));
+  EXPECT_TRUE(stands_beside_doubt(false, 7)) << "nothing ever moved here";
+}
+
+TEST(Standing, WhereAnythingMovedTheFarMustStandUntilSlowWalkersWouldBeGone) {
+  const auto stands_far = [](double speed_mps) {
+    Standing standing;
+    const auto place_at = [speed_mps](int i) {
+      return at(3.8, -0.3 + 1e-6 * speed_mps * static_cast<double>(i * kFrame_us));
+    };
+    Landmark passer = at(2.5, -1.5);
+    passer.is_moving = true;
+    standing.remember(0, {}, {passer});
+    for (int i = 0; i < 10; ++i) standing.remember((31 + i) * kFrame_us, {}, {place_at(i)});
+    return standing.has_stood(41 * kFrame_us, {}, place_at(10), {});
+  };
+  EXPECT_FALSE(stands_far(0.5));
+  EXPECT_TRUE(stands_far(0.0));
+}
+
 TEST(Standing, WhatMovedOnceIsTakenForStandingInTheEnd) {
   Standing standing;
   Landmark chair = at(2.5, 0.3);
