@@ -84,7 +84,7 @@ void print_row(const char* name, const std::vector<Outcome>& outcomes) {
 
 }  // namespace
 
-int calibration_experiment(int runs) {
+int calibration_experiment(int runs, int first_seed) {
   fmt::print("{:34} {:>8} {:>8} {:>12} {:>12} {:>14}\n", "odometry", "RMSE m", "NEES/3",
              "distance %", "turn %", "pull rad/m");
   fmt::print("(the last three: RMS error of what is held of the wheels, over {} runs)\n", runs);
@@ -93,7 +93,7 @@ int calibration_experiment(int runs) {
     std::vector<Outcome> learning, trusting;
     std::mt19937_64 engine(1);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    for (int seed = 1; seed <= runs; ++seed) {
+    for (int seed = first_seed; seed < first_seed + runs; ++seed) {
       OdometryCalibration truth;
       if (is_biased)
         truth.value << 0.1 * uniform(engine), 0.1 * uniform(engine), 0.04 * uniform(engine);
