@@ -165,14 +165,14 @@ std::vector<Relocaliser::Place> Relocaliser::places(const Local& local) const {
   std::vector<Place> found;
   std::vector<Lying> tried;
   for (const Pose2& proposal : propose(local)) {
+    auto rough = pair_up(local, proposal, kProposalReach_m);
+    if (rough.size() + kRivalPairsLess < local.enough) continue;
     const Lying proposed = how_it_lies(local, proposal);
     const bool is_tried = std::any_of(tried.begin(), tried.end(), [&](const Lying& other) {
       return proposed.is_near(other, kSameProposal_m, kSameProposal_rad);
     });
     if (is_tried) continue;
     tried.push_back(proposed);
-    auto rough = pair_up(local, proposal, kProposalReach_m);
-    if (rough.size() + kRivalPairsLess < local.enough) continue;
     auto place = judge(local, proposal, std::move(rough));
     if (!place) continue;
     const auto same = std::find_if(found.begin(), found.end(), [&](const Place& other) {
