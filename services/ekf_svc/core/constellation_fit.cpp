@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cmath>
+#include <numbers>
 
 #include "services/ekf_svc/core/constellation_closure.h"
 #include "services/ekf_svc/core/planar_group.h"
@@ -37,6 +39,15 @@ Eigen::MatrixXd residual_covariance(const MapSnapshot& map, const MapSnapshot& l
   return C;
 }
 
+/// ln of the integral over the motion of a Gaussian of covariance C, least at `squared`.
+double log_density(const Eigen::LDLT<Eigen::MatrixXd>& C, const Eigen::Matrix3d& information,
+                   double squared) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const auto freedom = static_cast<double>(C.rows() - information.rows());
+  return -0.5 * (squared + freedom * std::log(kTurn) + C.vectorD().array().log().sum() +
+                 std::log(information.determinant()));
+}
+
 }  // namespace
 
 ConstellationFit fit_constellation(const MapSnapshot& map, const MapSnapshot& local,
@@ -59,7 +70,10 @@ ConstellationFit fit_constellation(const MapSnapshot& map, const MapSnapshot& lo
     fit.squared = r.dot(C.solve(r));
     const Eigen::Matrix3d information = H.transpose() * C.solve(H);
     fit.covariance = information.inverse();
-    if (step == kSteps) break;
+    if (step == kSteps) {
+      fit.log_density = log_density(C, information, fit.squared);
+      break;
+    }
     const Eigen::Vector3d by = information.ldlt().solve(H.transpose() * C.solve(r));
     fit.T_map_local = {fit.T_map_local.x_m + by(1), fit.T_map_local.y_m + by(2),
                        wrap_angle(fit.T_map_local.heading_rad + by(0))};

@@ -9,30 +9,24 @@
 namespace roomwise::ekf {
 namespace {
 
-constexpr std::int32_t kSureTimesSeenMin = 5;
-constexpr std::size_t kSureMax = 24;       // local landmarks compared
+constexpr std::size_t kChosenMax = 24;     // local landmarks compared
 constexpr std::size_t kAnchorsMax = 40;    // pairs of them that propose
 constexpr double kProposalReach_m = 0.25;  // proposals come from two landmarks only
 constexpr double kFitReach_m = 0.15;
 constexpr double kAnchorMin_m = 1.0;  // nearer pairs say little about the heading
-constexpr std::size_t kRivalMargin = 2;
 constexpr double kFittingShareMin = 0.8;
 constexpr double kOtherPlace_m = 0.4;  // proposals nearer to each other are of the same place
 constexpr double kOtherPlace_rad = 0.3;
+constexpr double kSameProposal_m = 0.08;  // ... and of the same pairs
+constexpr double kSameProposal_rad = 0.05;
 constexpr std::size_t kNoLandmark = std::numeric_limits<std::size_t>::max();
 
-std::vector<std::size_t> sure_landmarks(const MapSnapshot& local) {
-  std::vector<std::size_t> sure;
-  for (std::size_t l = 0; l < local.landmarks.size(); ++l) {
-    const Landmark& landmark = local.landmarks[l];
-    if (landmark.identity < 0 && landmark.times_seen >= kSureTimesSeenMin) sure.push_back(l);
-  }
-  std::stable_sort(sure.begin(), sure.end(), [&](std::size_t a, std::size_t b) {
-    return local.landmarks[a].times_seen > local.landmarks[b].times_seen;
-  });
-  sure.resize(std::min(sure.size(), kSureMax));
-  return sure;
-}
+// Landmarks the saved map lacks: where there are two on a square metre, one in five is new or was
+// moved, against the four that are found again.
+constexpr double kUnknownDensity_per_m2 = 2.0 * 0.2 / 0.8;
+constexpr double kEvidenceMargin = 13.8;  // ln of a million
+// A rival with fewer pairs yet is far less likely: each pair weighs 3 and more, if it fits at all.
+constexpr std::size_t kRivalPairsLess = 2;
 
 /// The motion that brings `from` onto `to`: middle onto middle, direction onto direction.
 Pose2 motion_between(const Eigen::Vector2d& from_a, const Eigen::Vector2d& from_b,
@@ -41,12 +35,6 @@ Pose2 motion_between(const Eigen::Vector2d& from_a, const Eigen::Vector2d& from_
   const double heading = std::atan2(to.y(), to.x()) - std::atan2(from.y(), from.x());
   const Eigen::Vector2d p = 0.5 * (to_a + to_b) - rotation2(heading) * (0.5 * (from_a + from_b));
   return {p.x(), p.y(), wrap_angle(heading)};
-}
-
-/// Apart where it matters: at the local map's middle.
-bool is_other_place(const Pose2& a, const Pose2& b, const Eigen::Vector2d& p_local_m) {
-  return (transform(a, p_local_m) - transform(b, p_local_m)).norm() > kOtherPlace_m ||
-         std::abs(wrap_angle(a.heading_rad - b.heading_rad)) > kOtherPlace_rad;
 }
 
 }  // namespace
@@ -76,13 +64,39 @@ std::size_t Relocaliser::nearest(const Eigen::Vector2d& p_map_m, const Landmark&
   return best;
 }
 
-std::vector<LandmarkPair> Relocaliser::pair_up(const MapSnapshot& local,
-                                               const std::vector<std::size_t>& sure,
-                                               const Pose2& T_map_local, double reach_m) const {
+/// The landmarks compared: those seen most, if there are more than can be. A landmark is as sure as
+/// its covariance says, so that few sightings need no rule of their own.
+Relocaliser::Local Relocaliser::choose(const MapSnapshot& map) {
+  Local local{.map = map, .chosen = {}, .middle_m = Eigen::Vector2d::Zero(), .enough = kPairsMin};
+  for (std::size_t l = 0; l < map.landmarks.size(); ++l) {
+    if (map.landmarks[l].identity < 0) local.chosen.push_back(l);
+  }
+  std::stable_sort(local.chosen.begin(), local.chosen.end(), [&](std::size_t a, std::size_t b) {
+    return map.landmarks[a].times_seen > map.landmarks[b].times_seen;
+  });
+  local.chosen.resize(std::min(local.chosen.size(), kChosenMax));
+  const auto count = static_cast<double>(local.chosen.size());
+  for (const std::size_t l : local.chosen) local.middle_m += map.positions_m[l] / count;
+  local.enough = std::max(kPairsMin, static_cast<std::size_t>(std::ceil(kFittingShareMin * count)));
+  return local;
+}
+
+/// Judged where it matters: where the local map's middle comes to lie.
+Relocaliser::Lying Relocaliser::how_it_lies(const Local& local, const Pose2& T_map_local) {
+  return {transform(T_map_local, local.middle_m), T_map_local.heading_rad};
+}
+
+bool Relocaliser::Lying::is_near(const Lying& other, double reach_m, double reach_rad) const {
+  return (middle_map_m - other.middle_map_m).squaredNorm() <= reach_m * reach_m &&
+         std::abs(wrap_angle(heading_rad - other.heading_rad)) <= reach_rad;
+}
+
+std::vector<LandmarkPair> Relocaliser::pair_up(const Local& local, const Pose2& T_map_local,
+                                               double reach_m) const {
   std::vector<LandmarkPair> pairs;
-  for (const std::size_t a : sure) {
+  for (const std::size_t a : local.chosen) {
     const std::size_t b =
-        nearest(transform(T_map_local, local.positions_m[a]), local.landmarks[a], reach_m);
+        nearest(transform(T_map_local, local.map.positions_m[a]), local.map.landmarks[a], reach_m);
     const bool is_free = std::none_of(pairs.begin(), pairs.end(),
                                       [=](const LandmarkPair& pair) { return pair.old == b; });
     if (b != kNoLandmark && is_free) pairs.push_back({a, b});
@@ -90,20 +104,20 @@ std::vector<LandmarkPair> Relocaliser::pair_up(const MapSnapshot& local,
   return pairs;
 }
 
-std::vector<Pose2> Relocaliser::propose(const MapSnapshot& local,
-                                        const std::vector<std::size_t>& sure) const {
+std::vector<Pose2> Relocaliser::propose(const Local& local) const {
+  const auto& [map, chosen, middle_m, enough] = local;
   std::vector<Pose2> proposals;
   std::size_t anchors = 0;
-  for (std::size_t i = 0; i < sure.size(); ++i) {
-    for (std::size_t j = i + 1; j < sure.size(); ++j) {
-      const Eigen::Vector2d& a = local.positions_m[sure[i]];
-      const Eigen::Vector2d& b = local.positions_m[sure[j]];
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    for (std::size_t j = i + 1; j < chosen.size(); ++j) {
+      const Eigen::Vector2d& a = map.positions_m[chosen[i]];
+      const Eigen::Vector2d& b = map.positions_m[chosen[j]];
       const double distance_m = (a - b).norm();
       if (distance_m < kAnchorMin_m || distance_m > MapPairIndex::kDistanceMax_m) continue;
       if (++anchors > kAnchorsMax) return proposals;
       for (const int shift : {-1, 0, 1}) {
-        for (const MapPairIndex::Pair& pair : index_.find(distance_m, local.landmarks[sure[i]].kind,
-                                                          local.landmarks[sure[j]].kind, shift)) {
+        for (const MapPairIndex::Pair& pair : index_.find(distance_m, map.landmarks[chosen[i]].kind,
+                                                          map.landmarks[chosen[j]].kind, shift)) {
           proposals.push_back(
               motion_between(a, b, map_.positions_m[pair.first], map_.positions_m[pair.second]));
         }
@@ -114,20 +128,23 @@ std::vector<Pose2> Relocaliser::propose(const MapSnapshot& local,
 }
 
 /// The proposal made exact, with the pairs that fit it jointly.
-std::optional<Relocaliser::Place> Relocaliser::judge(const MapSnapshot& local,
-                                                     const std::vector<std::size_t>& sure,
-                                                     const Pose2& proposal,
-                                                     std::size_t enough) const {
-  const auto rough = pair_up(local, sure, proposal, kProposalReach_m);
-  if (rough.size() + kRivalMargin < enough) return std::nullopt;
-  const Pose2 refined = fit_constellation(map_, local, rough, proposal).T_map_local;
-  Place place{.fit = {.T_map_local = refined}, .pairs = pair_up(local, sure, refined, kFitReach_m)};
-  auto& [fit, pairs] = place;
-  while (pairs.size() >= 3) {
-    fit = fit_constellation(map_, local, pairs, fit.T_map_local);
+std::optional<Relocaliser::Place> Relocaliser::judge(const Local& local, const Pose2& proposal,
+                                                     std::vector<LandmarkPair> rough) const {
+  const Pose2 refined = fit_constellation(map_, local.map, rough, proposal).T_map_local;
+  Place place;
+  place.pairs = pair_up(local, refined, kFitReach_m);
+  place.fit.T_map_local = refined;
+  auto& [fit, pairs, log_evidence, lies] = place;
+  while (pairs.size() + kRivalPairsLess >= local.enough) {
+    fit = fit_constellation(map_, local.map, pairs, fit.T_map_local);
     const int freedom = 2 * static_cast<int>(pairs.size()) - 3;
-    if (fit.squared < chi_square_quantile(freedom, kNormal95)) return place;
-    drop_worst(local, place);
+    const auto unknown = static_cast<double>(local.chosen.size() - pairs.size());
+    log_evidence = fit.log_density + unknown * std::log(kUnknownDensity_per_m2);
+    if (fit.squared < chi_square_quantile(freedom, kNormal95)) {
+      lies = how_it_lies(local, fit.T_map_local);
+      return place;
+    }
+    drop_worst(local.map, place);
   }
   return std::nullopt;
 }
@@ -143,34 +160,46 @@ void Relocaliser::drop_worst(const MapSnapshot& local, Place& place) const {
       [&](const LandmarkPair& a, const LandmarkPair& b) { return error_m2(a) < error_m2(b); }));
 }
 
-std::optional<Relocaliser::Place> Relocaliser::find(const MapSnapshot& local) const {
-  const std::vector<std::size_t> sure = sure_landmarks(local);
-  if (sure.size() < kPairsMin) return std::nullopt;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const std::size_t l : sure) {
-    middle += local.positions_m[l] / static_cast<double>(sure.size());
-  }
-  const auto enough = std::max(
-      kPairsMin,
-      static_cast<std::size_t>(std::ceil(kFittingShareMin * static_cast<double>(sure.size()))));
-
-  std::optional<Place> best;
-  std::size_t rival_pairs = 0;
-  for (const Pose2& proposal : propose(local, sure)) {
-    if (best && !is_other_place(proposal, best->fit.T_map_local, middle)) continue;
-    auto place = judge(local, sure, proposal, enough);
+/// Every place that enough landmarks fit to be a rival at least, each once.
+std::vector<Relocaliser::Place> Relocaliser::places(const Local& local) const {
+  std::vector<Place> found;
+  std::vector<Lying> tried;
+  for (const Pose2& proposal : propose(local)) {
+    auto rough = pair_up(local, proposal, kProposalReach_m);
+    if (rough.size() + kRivalPairsLess < local.enough) continue;
+    const Lying proposed = how_it_lies(local, proposal);
+    const bool is_tried = std::any_of(tried.begin(), tried.end(), [&](const Lying& other) {
+      return proposed.is_near(other, kSameProposal_m, kSameProposal_rad);
+    });
+    if (is_tried) continue;
+    tried.push_back(proposed);
+    auto place = judge(local, proposal, std::move(rough));
     if (!place) continue;
-    if (best && !is_other_place(place->fit.T_map_local, best->fit.T_map_local, middle)) continue;
-    const std::size_t best_pairs = best ? best->pairs.size() : 0;
-    if (place->pairs.size() < enough || place->pairs.size() <= best_pairs) {
-      rival_pairs = std::max(rival_pairs, place->pairs.size());
-      continue;
+    const auto same = std::find_if(found.begin(), found.end(), [&](const Place& other) {
+      return place->lying.is_near(other.lying, kOtherPlace_m, kOtherPlace_rad);
+    });
+    if (same == found.end()) {
+      found.push_back(std::move(*place));
+    } else if (place->log_evidence > same->log_evidence) {
+      *same = std::move(*place);
     }
-    rival_pairs = std::max(rival_pairs, best_pairs);
-    best = std::move(place);
   }
-  if (!best || rival_pairs + kRivalMargin > best->pairs.size()) return std::nullopt;
-  return best;
+  return found;
+}
+
+std::optional<Relocaliser::Place> Relocaliser::find(const MapSnapshot& map) const {
+  const Local local = choose(map);
+  if (local.chosen.size() < kPairsMin) return std::nullopt;
+  std::vector<Place> found = places(local);
+  const auto is_less_likely = [](const Place& a, const Place& b) {
+    return a.log_evidence < b.log_evidence;
+  };
+  const auto best = std::max_element(found.begin(), found.end(), is_less_likely);
+  if (best == found.end() || best->pairs.size() < local.enough) return std::nullopt;
+  const bool stands_out = std::all_of(found.begin(), found.end(), [&](const Place& place) {
+    return &place == &*best || place.log_evidence + kEvidenceMargin <= best->log_evidence;
+  });
+  return stands_out ? std::optional(std::move(*best)) : std::nullopt;
 }
 
 }  // namespace roomwise::ekf

@@ -127,7 +127,7 @@ std::vector<World> worlds() {
 
 }  // namespace
 
-int association_experiment(int runs) {
+int association_experiment(int runs, int first_seed) {
   fmt::print("{:36} {:>6} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8}\n", "world", "lost", "RMSE m",
              "NEES/3", "merges", "wrong", "landmarks", "ms/step");
   int failed = 0;
@@ -135,7 +135,7 @@ int association_experiment(int runs) {
     int lost = 0;
     Outcome sum;
     double landmarks = 0.0;
-    for (int seed = 1; seed <= runs; ++seed) {
+    for (int seed = first_seed; seed < first_seed + runs; ++seed) {
       const Outcome one = drive(world.settings, static_cast<std::uint64_t>(seed));
       if (one.end_error_m > kLost_m) ++lost;
       sum.mean_square_m2 += one.mean_square_m2 / runs;

@@ -20,18 +20,29 @@ Pose2 straight(int side, double along_m, double side_m) {
 
 CorridorWorld::CorridorWorld(const CorridorSettings& settings, std::uint64_t seed)
     : settings_(settings), engine_(seed) {
-  for (int side = 0; side < 4; ++side) {
-    for (const double left_m : {settings.half_width_m, -settings.half_width_m}) {
-      const double from_m = left_m > 0.0 ? settings.half_width_m : -settings.half_width_m;
-      for (double at = from_m; at < settings.side_m - from_m; at += settings.spacing_m) {
-        const double shift_m = settings.spacing_m / 3.0 * (uniform_(engine_) - 0.5);
-        const Pose2 wall = straight(side, at + shift_m, settings.side_m);
-        landmarks_.push_back(transform(wall, {0.0, left_m + 0.1 * (uniform_(engine_) - 0.5)}));
-        kinds_.push_back(static_cast<std::int8_t>(uniform_(engine_) * settings.classes));
-      }
+  const int own_sides = settings.looks_the_same_turned_round ? 2 : 4;
+  for (int side = 0; side < own_sides; ++side) line_with_landmarks(side);
+  if (settings.looks_the_same_turned_round) {
+    const Pose2 turned_round{settings.side_m, settings.side_m, std::numbers::pi};
+    const std::size_t count = landmarks_.size();
+    for (std::size_t l = 0; l < count; ++l) {
+      landmarks_.push_back(transform(turned_round, landmarks_[l]));
+      kinds_.push_back(kinds_[l]);
     }
   }
   truth_ = course(0.0);
+}
+
+void CorridorWorld::line_with_landmarks(int side) {
+  for (const double left_m : {settings_.half_width_m, -settings_.half_width_m}) {
+    const double from_m = left_m > 0.0 ? settings_.half_width_m : -settings_.half_width_m;
+    for (double at = from_m; at < settings_.side_m - from_m; at += settings_.spacing_m) {
+      const double shift_m = settings_.spacing_m / 3.0 * (uniform_(engine_) - 0.5);
+      const Pose2 wall = straight(side, at + shift_m, settings_.side_m);
+      landmarks_.push_back(transform(wall, {0.0, left_m + 0.1 * (uniform_(engine_) - 0.5)}));
+      kinds_.push_back(static_cast<std::int8_t>(uniform_(engine_) * settings_.classes));
+    }
+  }
 }
 
 double CorridorWorld::lap_m() const {

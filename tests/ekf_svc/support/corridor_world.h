@@ -23,8 +23,9 @@ struct CorridorSettings {
   double bearing_sigma_rad = 0.25 * std::numbers::pi / 180.0;
   double range_max_m = 3.8;
   double half_view_rad = 28.5 * std::numbers::pi / 180.0;
-  double missed_ratio = 0.0;       ///< of sightings
-  double clutter_per_frame = 0.0;  ///< things seen that are not there
+  double missed_ratio = 0.0;                 ///< of sightings
+  double clutter_per_frame = 0.0;            ///< things seen that are not there
+  bool looks_the_same_turned_round = false;  ///< opposite sides alike, to the last landmark
 };
 
 class CorridorWorld {
@@ -48,6 +49,7 @@ class CorridorWorld {
   const std::vector<Eigen::Vector2d>& landmarks() const { return landmarks_; }
 
  private:
+  void line_with_landmarks(int side);
   Pose2 course(double way_m) const;
   Sighting sighting_at(const Eigen::Vector2d& p_robot_m, std::int8_t kind);
 
