@@ -35,6 +35,10 @@ struct EkfParams {
   /// best guard if one range in seven is anything but Gaussian.
   double range_outlier_sigmas = 1.0;
 
+  /// An outline is another corner of a thing when seen from elsewhere: sigma of how far from the
+  /// first, a radian of its line of sight; 0: its edges are sharp from everywhere.
+  double outline_shift_m_per_rad = 0.08;
+
   /// Where a landmark that is there is sure to be seen if nothing hides it.
   double view_half_angle_rad = 0.42;
   double view_range_min_m = 0.9;
@@ -68,6 +72,7 @@ struct EkfParams {
     field("range_bias_m", range_bias_m, 0.0, 1.0);
     field("lateral_bias_m", lateral_bias_m, 0.0, 1.0);
     field("range_outlier_sigmas", range_outlier_sigmas, 0.0, 100.0);
+    field("outline_shift_m_per_rad", outline_shift_m_per_rad, 0.0, 1.0);
     field("view_half_angle_rad", view_half_angle_rad, 0.0, 3.2);
     field("view_range_min_m", view_range_min_m, 0.0, 100.0);
     field("view_range_max_m", view_range_max_m, 0.0, 100.0);

@@ -4,6 +4,7 @@
 
 #include "services/ekf_svc/core/arc_innovation.h"
 #include "services/ekf_svc/core/chi_square.h"
+#include "services/ekf_svc/core/outline.h"
 
 namespace roomwise::ekf {
 namespace {
@@ -24,6 +25,7 @@ LocalAssociation::LocalAssociation(const SlamFilter& filter) : filter_(&filter),
 }
 
 void LocalAssociation::begin(double travel_m) {
+  travel_m_ = travel_m;
   locals_.clear();
   offers_.clear();
   candidates_.clear();
@@ -54,8 +56,9 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
     if (filter_->landmark(local.index).kind != what.kind) continue;
     const double distance_m2 = (local.p_map_m - p_map_m).squaredNorm();
     if (distance_m2 > kNewLandmarkSq * (noise_m2 + local.spread_m2)) continue;
-    const Residual residual =
-        unrolled(*filter_, filter_->observation_residual(local.index, seen), seen);
+    const Residual chord = filter_->observation_residual(local.index, seen);
+    if (!may_be(filter_->landmark(local.index), chord, seen)) continue;
+    const Residual residual = unrolled(*filter_, chord, seen);
     const Eigen::Matrix2d S = filter_->innovation_covariance(residual);
     const double relative_m2 = S.trace() - residual.noise.trace();
     if (!local.is_seen_lately && !is_well_known(local, 0.5 * relative_m2, noise_m2)) continue;
@@ -74,6 +77,12 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
   }
   offers_.push_back(offer);
   return true;
+}
+
+bool LocalAssociation::may_be(const Landmark& landmark, const Residual& chord,
+                              const BodyObservation& seen) const {
+  return !is_outline(landmark.kind) ||
+         repeats(landmark.range_off, range_off(chord, seen, travel_m_));
 }
 
 /// Known so well that no other landmark of the kind could be meant, but those so near it that a

@@ -14,7 +14,8 @@ namespace roomwise::ekf {
 /// ConstellationClosure: after a long way round, one frame of a narrow view cannot tell one doorway
 /// from the next.
 ///
-/// A sighting joins the jointly compatible set (99 %), or is of something new if no local landmark
+/// An outline must be off in range by about as much as it was before (outline.h). A sighting
+/// joins the jointly compatible set (99 %), or is of something new if no local landmark
 /// is nearer than d^2 = 25 or if all it could be are seen beside it in the same frame, or else
 /// ambiguous (Bailey et al., IROS 2006).
 class LocalAssociation {
@@ -49,9 +50,11 @@ class LocalAssociation {
   };
 
   bool are_all_taken(std::size_t offer) const;
+  bool may_be(const Landmark& landmark, const Residual& chord, const BodyObservation& seen) const;
   bool is_well_known(const LocalLandmark& local, double variance_m2, double noise_m2) const;
 
   const SlamFilter* filter_;
+  double travel_m_ = 0.0;
   std::vector<LocalLandmark> locals_;
   std::vector<Offer> offers_;
   std::vector<std::size_t> candidates_;  // landmark numbers, offer by offer

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "services/ekf_svc/core/arc_innovation.h"
-#include "services/ekf_svc/core/range_outliers.h"
+#include "services/ekf_svc/core/outline.h"
 #include "services/ekf_svc/core/signature.h"
 
 namespace roomwise::ekf {
@@ -114,7 +113,7 @@ FrameResult Slam::process(std::span<const Sighting> sightings, bool may_update,
   } else {
     std::replace(verdicts.begin(), verdicts.end(), Verdict::kMatched, Verdict::kHeld);
   }
-  note_seen(verdicts);
+  note_seen(sightings, verdicts);
   if (may_update) remove_what_is_gone(sightings, verdicts, scan);
   replace_refused(sightings, verdicts);
   add_new(sightings, verdicts);
@@ -204,22 +203,6 @@ void Slam::update(std::span<const Sighting> sightings, std::span<Verdict> verdic
   update_batch(sightings, verdicts);
 }
 
-Residual Slam::softened_residual(std::size_t l, const BodyObservation& seen) const {
-  const Residual chord = filter_.observation_residual(l, seen);
-  Residual residual = unrolled(filter_, chord, seen);
-  const Eigen::Matrix2d S = filter_.innovation_covariance(residual);
-  if (residual.innovation == chord.innovation) {
-    residual.softening = range_softening(residual, seen.p_robot_m, S, params_.range_outlier_sigmas);
-    return residual;
-  }
-  const Eigen::Vector2d along = (seen.p_robot_m - chord.innovation).normalized();
-  Residual range_alone = residual;
-  range_alone.innovation = along * along.dot(residual.innovation);
-  residual.softening =
-      range_softening(range_alone, seen.p_robot_m.norm() * along, S, params_.range_outlier_sigmas);
-  return residual;
-}
-
 void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts) {
   residuals_.clear();
   for (const std::size_t i : batch_) {
@@ -234,6 +217,9 @@ void Slam::update_batch(std::span<const Sighting> sightings, std::span<Verdict> 
       continue;
     }
     Landmark& landmark = filter_.landmark(candidates_[i].landmark);
+    if (!std::isfinite(landmark.first_sight_rad)) {
+      landmark.first_sight_rad = sight_rad(body(sightings[i]));
+    }
     landmark.times_seen = std::min(landmark.times_seen, kTimesSeenMax) + 1;
     landmark.signature = fused(landmark.signature, sightings[i].signature);
   }
@@ -296,13 +282,19 @@ Landmark Slam::begun(const Sighting& sighting) const {
           .signature = cleaned(sighting.signature),
           .times_seen = 1,
           .first_seen_travel_m = travel_m_,
-          .last_seen_travel_m = travel_m_};
+          .last_seen_travel_m = travel_m_,
+          .range_off = {.off_m = 0.0, .travel_m = travel_m_},
+          .first_sight_rad = sight_rad(body(sighting))};
 }
 
-void Slam::note_seen(std::span<const Verdict> verdicts) {
+void Slam::note_seen(std::span<const Sighting> sightings, std::span<const Verdict> verdicts) {
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     if (verdicts[i] != Verdict::kMatched && verdicts[i] != Verdict::kHeld) continue;
-    filter_.landmark(candidates_[i].landmark).last_seen_travel_m = travel_m_;
+    const std::size_t l = candidates_[i].landmark;
+    const BodyObservation seen = body(sightings[i]);
+    filter_.landmark(l).last_seen_travel_m = travel_m_;
+    filter_.landmark(l).range_off =
+        range_off(filter_.observation_residual(l, seen), seen, travel_m_);
   }
 }
 

@@ -85,7 +85,8 @@ class Slam {
   void update(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   void update_batch(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   Residual softened_residual(std::size_t l, const BodyObservation& seen) const;
-  void note_seen(std::span<const Verdict> verdicts);
+  Residual range_softened(std::size_t l, const BodyObservation& seen) const;
+  void note_seen(std::span<const Sighting> sightings, std::span<const Verdict> verdicts);
   void merge_what_is_one();
   void merge(std::span<const LandmarkPair> pairs);
   void remove_what_is_gone(std::span<const Sighting> sightings, std::span<const Verdict> verdicts,
@@ -94,6 +95,7 @@ class Slam {
   void replace_refused(std::span<const Sighting> sightings, std::span<Verdict> verdicts);
   Verdict add_known(const Sighting& sighting);
   Verdict add_unknown(std::size_t i, const Sighting& sighting);
+  double sight_rad(const BodyObservation& seen) const;
   Landmark begun(const Sighting& sighting) const;
   BodyObservation body(const Sighting& sighting) const;
 

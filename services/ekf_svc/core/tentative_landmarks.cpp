@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "services/ekf_svc/core/association.h"
+#include "services/ekf_svc/core/outline.h"
 #include "services/ekf_svc/core/signature.h"
 
 namespace roomwise::ekf {
@@ -41,22 +42,27 @@ void TentativeLandmarks::begin(double travel_m) {
 std::size_t TentativeLandmarks::find(const Sighting& sighting, const BodyObservation& seen) {
   Thing* best = nullptr;
   double best_sq = kGateSq;
+  RangeOff best_off;
   for (Thing& thing : things_) {
     const Landmark& landmark = filter_->landmark(thing.landmark);
     if (thing.is_seen || landmark.kind != sighting.kind) continue;
     const Residual residual = filter_->observation_residual(thing.landmark, seen);
+    const RangeOff off = range_off(residual, seen, travel_m_);
+    if (is_outline(sighting.kind) && !repeats(landmark.range_off, off)) continue;
     const SignatureDistance colour = distance(sighting.signature, landmark.signature);
     const double squared =
         mahalanobis_sq(residual.innovation, filter_->innovation_covariance(residual)) +
         colour.squared;
     if (!(squared < best_sq)) continue;
     best_sq = squared;
+    best_off = off;
     best = &thing;
   }
   if (best == nullptr) return kNone;
   best->is_seen = true;
   Landmark& landmark = filter_->landmark(best->landmark);
   landmark.last_seen_travel_m = travel_m_;
+  landmark.range_off = best_off;
   ++landmark.times_seen;
   return best->landmark;
 }

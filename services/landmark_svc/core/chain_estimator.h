@@ -32,7 +32,7 @@ struct ChainEstimateParams {
   /// Likewise along the ray: the side of a door jamb too narrow to be told from its front, the
   /// half of a chair leg turned away. It changes with the distance, so a filter takes it for
   /// motion.
-  double depth_bias_m = 0.09;
+  double depth_bias_m = 0.15;
   RoundParams round;
 };
 

@@ -117,7 +117,7 @@ std::size_t ScanLines::reach(std::size_t from, int step, double length_m, std::s
   };
   const bool is_ahead = step < 0 ? about < from : about > from && about < points_m_.size();
   std::size_t at = is_ahead && piece_[about] == piece_[from] ? about : from;
-  while (!is_within(at)) at = step < 0 ? at + 1 : at - 1;
+  while (at != from && !is_within(at)) at = step < 0 ? at + 1 : at - 1;
   while (step < 0 ? at != 0 : at + 1 != points_m_.size()) {
     const std::size_t next = step < 0 ? at - 1 : at + 1;
     if (piece_[next] != piece_[from] || !is_within(next)) break;

@@ -333,6 +333,29 @@ RC_GTEST_PROP(LandmarkDetector, EverythingItSaysIsFiniteWhateverItIsFed, ()) {
   }
 }
 
+/// Places that are no numbers: a search among them once ran past the end of the scan.
+TEST(LandmarkDetector, AbsurdCamerasAreLookedThroughToTheEnd) {
+  RgbdFrame frame = kinect_view(furnished_room(), {}, {}, 0);
+  const Eigen::Isometry3d mounted = frame.T_robot_camera;
+  LandmarkDetector detector{LandmarkParams{}};
+  for (const double fx_px : {1e-300, 1e-306, 1e300}) {
+    for (const double cx_px : {0.0, 1.0, 319.5, 585.0, 1e300}) {
+      frame.depth_camera.fx_px = fx_px;
+      frame.depth_camera.cx_px = cx_px;
+      for (int i = 0; i < 12; ++i) {
+        for (const double number : {0.0, 1e-6, 1.0, -1.0, 1e300, -1e300}) {
+          frame.T_robot_camera = mounted;
+          frame.T_robot_camera.matrix()(i % 3, i / 3) = number;
+          (void)detector.detect(frame);
+          for (const Landmark& landmark : detector.landmarks()) {
+            EXPECT_TRUE(std::isfinite(landmark.range_m));
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(LandmarkDetector, MaximumClutterStaysWithinItsBudget) {
   RgbdFrame frame = render(furnished_room(), {}, {}, 0);
   for (std::size_t i = 0; i < frame.depth.steps.size(); ++i) {
