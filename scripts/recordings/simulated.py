@@ -27,7 +27,7 @@ def _new_log(name):
 @functools.cache
 def drive(bin_folder, scenario, path="loop1", *options):
     """A log of one drive: frames, odometry and truth."""
-    log = _new_log(scenario)
+    log = _new_log(pathlib.Path(scenario).stem)  # or a scenario's file
     run_quietly(bin_folder / "simulator", "--record", log, "--scenario", scenario, "--path", path,
                 *(options if "--camera_size" in options else (*CAMERA, *options)))
     return log

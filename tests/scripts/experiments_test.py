@@ -16,6 +16,7 @@ sys.path.insert(0, str(SCRIPTS))
 from plotting.line_plot import Axis, line_plot  # noqa: E402
 from plotting.plan import Marks, plan  # noqa: E402
 from plotting.png import png  # noqa: E402
+from recordings import simulated  # noqa: E402
 from report_parts import page, printed_tables, run, slam_programs, text, thesis  # noqa: E402
 from report_parts.results import (Bar, Figure, Note, Result, Table, at_least,  # noqa: E402
                                   at_most, left_out)
@@ -30,11 +31,28 @@ exit $STAND_IN_EXIT
 """
 
 
+# A simulator that records nothing but that it was asked to.
+STAND_IN_SIMULATOR = """#!/bin/sh
+echo recorded > "$2"
+"""
+
+
 def some_result():
     svg = line_plot("A plot", Axis("x"), Axis("y"), {"one": [(0, 1.0), (1, None), (2, 3.0)]})
     return Result([Table("A <table>", ["what", "m"], [["a & b", 0.5]]), Note("A word."),
                    Figure("a plot", svg), Figure("a picture", png(2, 1, bytes(range(6))))],
                   [at_most("error", 0.5, 0.4), at_least("share", 0.99, 0.95)])
+
+
+class SimulatedDrive(unittest.TestCase):
+    def test_a_scenario_may_be_one_of_the_simulators_or_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "simulator")
+            program.write_text(STAND_IN_SIMULATOR)
+            program.chmod(0o755)
+            for scenario in ("living_room", pathlib.Path(folder, "darker.toml")):
+                log = simulated.drive(pathlib.Path(folder), scenario)
+                self.assertEqual(log.read_text(), "recorded\n")
 
 
 class Page(unittest.TestCase):

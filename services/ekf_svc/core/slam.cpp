@@ -78,12 +78,13 @@ void Slam::free_calibrations() {
 }
 
 /// A sensor's ranges are no better than it says, so what repeats of their error is not either. The
-/// surest sighting of the first frame that shows anything tells how good it says they are.
+/// surest sighting of the first frame that shows anything tells how good it says they are; but not
+/// an outline, whose noise is that of where a thing ends.
 void Slam::free_ranges(std::span<const Sighting> sightings) {
   if (!params_.self_calibration || ranges_are_free_) return;
   double sigma_ratio = std::numeric_limits<double>::infinity();
   for (const Sighting& seen : sightings) {
-    if (check(seen) != Verdict::kMatched) continue;
+    if (check(seen) != Verdict::kMatched || is_outline(seen.kind)) continue;
     const PolarObservation& polar = seen.polar;
     sigma_ratio = std::min(sigma_ratio, std::sqrt(polar.covariance(0, 0)) / polar.range_m);
   }

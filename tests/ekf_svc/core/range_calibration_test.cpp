@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "services/ekf_svc/core/slam.h"
 
@@ -84,6 +85,19 @@ TEST(RangeCalibration, OfAFilterThatDoesNotLearnItStaysExact) {
   ASSERT_EQ(filter.update({&residual, 1}), UpdateResult::kUsed);
   EXPECT_EQ(filter.range_calibration().value, Eigen::Vector2d::Zero());
   EXPECT_EQ(filter.robot_covariance()(8, 8), 0.0);
+}
+
+TEST(RangeCalibration, IsFreedByWhatRangesClaimButNotByOutlines) {
+  constexpr std::int8_t kEdgeLeft = 1, kCrease = 3;
+  Slam slam{EkfParams{}};
+  for (const std::int8_t kind : {kEdgeLeft, kCrease}) {
+    Sighting sighting;
+    sighting.polar = polar(2.0, 0.1);
+    sighting.kind = kind;
+    std::vector<Verdict> verdicts(1);
+    slam.process({&sighting, 1}, true, verdicts);
+    EXPECT_EQ(slam.filter().robot_covariance()(7, 7) > 0.0, kind == kCrease);
+  }
 }
 
 /// A robot goes three times round a ring of posts, and its camera gives depths for ranges.
