@@ -13,10 +13,10 @@ namespace {
 constexpr float kApart_quanta = 2.0F;
 constexpr float kApart_ratio = 0.03F;
 
-constexpr std::size_t kWord = 8;
+constexpr std::size_t kMarksAtOnce = 8;
 
 std::size_t whole_words(int width_px) {
-  return (static_cast<std::size_t>(width_px) + kWord - 1) / kWord * kWord;
+  return (static_cast<std::size_t>(width_px) + kMarksAtOnce - 1) / kMarksAtOnce * kMarksAtOnce;
 }
 
 /// Linear in the image: at column u of a row, constant + per_column u.
@@ -66,11 +66,11 @@ void mark_within(const std::uint16_t* steps, int width, const Readings& readings
 /// Beyond the last column there are zeros up to a whole word.
 template <class Visit>
 void for_each_within(const std::vector<std::uint8_t>& within, Visit visit) {
-  for (std::size_t first = 0; first < within.size(); first += kWord) {
+  for (std::size_t first = 0; first < within.size(); first += kMarksAtOnce) {
     std::uint64_t word;
     std::memcpy(&word, within.data() + first, sizeof word);
     if (word == 0) continue;
-    for (std::size_t i = first; i < first + kWord; ++i) {
+    for (std::size_t i = first; i < first + kMarksAtOnce; ++i) {
       if (within[i] != kNothing) visit(i);
     }
   }
@@ -170,17 +170,21 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
     });
   }
 
-  const double rows_min = std::max(2.0, params.rows_min_px * depth.height_px / 480.0);
+  place_points(camera, table, along, left, region,
+               std::max(2.0, params.rows_min_px * depth.height_px / 480.0));
+}
+
+/// Points or open columns from what the columns hold. `along`, `left`: the level viewing direction
+/// and its left, in the camera frame.
+void VirtualScan::place_points(const PinholeCamera& camera, const DisparityTable& table,
+                               const Eigen::Vector3d& along, const Eigen::Vector3d& left,
+                               const PixelRectangle& region, double rows_min) {
   const Eigen::Vector2d sideways(-forward_.y(), forward_.x());
   for (int u = region.u_begin_px; u < region.u_end_px; ++u) {
-    const Cluster* nearest = nullptr;
-    for (const Cluster& c : columns_[static_cast<std::size_t>(u - region.u_begin_px)]) {
-      if (c.rows >= rows_min && (!nearest || c.mean() > nearest->mean())) nearest = &c;
-    }
+    const auto column = static_cast<std::size_t>(u - region.u_begin_px);
+    const Cluster* const nearest = nearest_of(columns_[column], rows_min);
     if (!nearest) {
-      if (beyond_rows_[static_cast<std::size_t>(u - region.u_begin_px)] >= rows_min) {
-        open_px_.push_back(u);
-      }
+      if (beyond_rows_[column] >= rows_min) open_px_.push_back(u);
       continue;
     }
     const double v = 0.5 * (nearest->v_top_px + nearest->v_bottom_px);
@@ -191,6 +195,17 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
     points_.push_back({u, origin_m_ + along_m * forward_ + left_m * sideways, along_m,
                        nearest->rows, nearest->v_top_px, nearest->v_bottom_px});
   }
+}
+
+/// Null if none has that many rows.
+const VirtualScan::Cluster* VirtualScan::nearest_of(const Clusters& clusters, double rows_min) {
+  const Cluster* nearest = nullptr;
+  for (const Cluster& cluster : clusters) {
+    if (cluster.rows >= rows_min && (!nearest || cluster.mean() > nearest->mean())) {
+      nearest = &cluster;
+    }
+  }
+  return nearest;
 }
 
 }  // namespace roomwise::landmark

@@ -74,6 +74,10 @@ class VirtualScan {
 
   static void add(Clusters& clusters, float quanta, std::int16_t v_px);
   static void begin_cluster(Clusters& clusters, float quanta, std::int16_t v_px);
+  static const Cluster* nearest_of(const Clusters& clusters, double rows_min);
+  void place_points(const PinholeCamera& camera, const DisparityTable& table,
+                    const Eigen::Vector3d& along, const Eigen::Vector3d& left,
+                    const PixelRectangle& region, double rows_min);
 
   std::vector<std::uint8_t> within_;  // of a row's columns: which reading within the slice
   std::vector<Clusters> columns_;
