@@ -8,6 +8,12 @@ namespace {
 
 constexpr double kStep_m = 0.08;  // a larger one between neighbours ends the surface
 
+/// Whole pixels, 0 to `most`, of what a hostile camera may have made anything.
+int pixels_of(double pixels, int most) {
+  if (!(pixels < most)) return most;
+  return pixels > 0.0 ? static_cast<int>(pixels) : 0;
+}
+
 }  // namespace
 
 void ChainProfile::gather(const DepthImage& depth, const PinholeCamera& camera,
@@ -20,7 +26,7 @@ void ChainProfile::gather(const DepthImage& depth, const PinholeCamera& camera,
   double column = 0.0;
   double used = 0.0;
   const double z_near_m = table.depth_m(chain.front().near_steps);
-  const int most = std::min<int>(kMost, 2 + static_cast<int>(arc_m * camera.fx_px / z_near_m));
+  const int most = pixels_of(2.0 + arc_m * camera.fx_px / z_near_m, kMost);
   // A few dozen rows average as well as hundreds.
   const std::size_t stride = std::max<std::size_t>(1, chain.size() / 48);
   for (std::size_t i = 0; i < chain.size(); i += stride) {

@@ -30,6 +30,7 @@ MapSnapshot map_of(const Points& positions_m) {
   return map;
 }
 
+/// Numbers are drawn between braces, which every compiler works through in order: the same worlds.
 class RelocaliserTest : public testing::Test {
  protected:
   double uniform(double low, double high) {
@@ -40,7 +41,7 @@ class RelocaliserTest : public testing::Test {
   Points room(int count, double side_m, const Eigen::Vector2d& corner_m = {0.0, 0.0}) {
     Points points;
     while (static_cast<int>(points.size()) < count) {
-      points.push_back(corner_m + Eigen::Vector2d(uniform(0.0, side_m), uniform(0.0, side_m)));
+      points.push_back(corner_m + Eigen::Vector2d{uniform(0.0, side_m), uniform(0.0, side_m)});
     }
     return points;
   }
@@ -50,8 +51,8 @@ class RelocaliserTest : public testing::Test {
     Points points;
     for (int i = 0; i < pairs; ++i) {
       for (const double y : {-1.0, 1.0}) {
-        points.emplace_back((i + uniform(-1.0 / 6.0, 1.0 / 6.0)) * spacing_m,
-                            y + uniform(-0.05, 0.05));
+        points.push_back(Eigen::Vector2d{(i + uniform(-1.0 / 6.0, 1.0 / 6.0)) * spacing_m,
+                                         y + uniform(-0.05, 0.05)});
       }
     }
     return points;
@@ -63,7 +64,7 @@ class RelocaliserTest : public testing::Test {
     Points local;
     for (const Eigen::Vector2d& p : points) {
       local.push_back(transform(inverse(T_map_local), p) +
-                      Eigen::Vector2d(normal(engine_), normal(engine_)));
+                      Eigen::Vector2d{normal(engine_), normal(engine_)});
     }
     return local;
   }
@@ -96,10 +97,16 @@ TEST_F(RelocaliserTest, AMapIsFoundWhereverItsFrameLies) {
   }
 }
 
+#ifdef ROOMWISE_SANITIZED
+constexpr int kRowRounds = 2;  // half a second each
+#else
+constexpr int kRowRounds = 200;
+#endif
+
 // Most landmarks of a row fit one step further on too, but not as well.
 TEST_F(RelocaliserTest, ARobotInARowOfLandmarksIsFoundBetweenPlacesThatFitNearlyAsMany) {
   int found = 0;
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < kRowRounds; ++round) {
     const Points points = corridor(40, 0.6);
     const Points seen(points.begin() + 40, points.begin() + 52);
     const Pose2 truth = somewhere();
@@ -108,7 +115,7 @@ TEST_F(RelocaliserTest, ARobotInARowOfLandmarksIsFoundBetweenPlacesThatFitNearly
     ++found;
     EXPECT_EQ(place->pairs.front().old, place->pairs.front().recent + 40) << "round " << round;
   }
-  EXPECT_GE(found, 19);
+  EXPECT_GE(found, kRowRounds * 95 / 100);
 }
 
 TEST_F(RelocaliserTest, OfTwoRoomsThatAreAlikeNoneIsChosen) {
