@@ -1,10 +1,18 @@
 #include "tests/pilot_svc/trial/trial_chain.h"
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <exception>
 
 #include "tests/support/build_paths.h"
 
 namespace roomwise {
+namespace {
+
+constexpr const char* kLogger = "lcm-logger";
+
+}  // namespace
 
 TrialChain::TrialChain(const TrialSetup& setup) : setup_(setup) {
   // OpenNI2's drivers take no arguments: the door comes by the environment.
@@ -26,6 +34,18 @@ TrialChain::TrialChain(const TrialSetup& setup) : setup_(setup) {
                        "--camera_pitch_rad", "0.1"});
 }
 
+/// Killed, the logger would leave half an event at the log's end.
+TrialChain::~TrialChain() {
+  for (const Part& part : parts_) {
+    if (part.name != kLogger) continue;
+    part.process->send_signal(SIGTERM);
+    try {
+      part.process->wait(std::chrono::seconds(20));
+    } catch (const std::exception&) {  // then it is killed after all
+    }
+  }
+}
+
 void TrialChain::start(const std::string& name, const std::vector<std::string>& options) {
   std::vector<std::string> command{program(name), "--url", setup_.url};
   command.insert(command.end(), options.begin(), options.end());
@@ -33,11 +53,14 @@ void TrialChain::start(const std::string& name, const std::vector<std::string>& 
 }
 
 void TrialChain::start_logger() {
-  const std::vector<std::string> command = {"lcm-logger",        "--lcm-url=" + setup_.url,
-                                            "--invert-channels", "--channel=KINECT_FRAME",
-                                            "--force",           "--quiet",
+  const std::vector<std::string> command = {kLogger,
+                                            "--lcm-url=" + setup_.url,
+                                            "--invert-channels",
+                                            "--channel=KINECT_FRAME",
+                                            "--force",
+                                            "--quiet",
                                             setup_.log.string()};
-  parts_.push_back({"lcm-logger", std::make_unique<ChildProcess>(command, folder_.path() / "log")});
+  parts_.push_back({kLogger, std::make_unique<ChildProcess>(command, folder_.path() / "log")});
 }
 
 std::string TrialChain::ended() {

@@ -28,6 +28,9 @@ struct TrialSetup {
 class TrialChain {
  public:
   explicit TrialChain(const TrialSetup& setup);
+  TrialChain(const TrialChain&) = delete;
+  TrialChain& operator=(const TrialChain&) = delete;
+  ~TrialChain();
 
   const std::string& url() const { return setup_.url; }
   /// Names of those that have ended by themselves.
