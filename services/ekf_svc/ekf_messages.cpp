@@ -4,8 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "services/ekf_svc/core/outline.h"
+
 namespace roomwise {
 namespace {
+
+// The core knows kinds by their numbers.
+static_assert(ekf::is_outline(landmark_observation_t::KIND_EDGE_LEFT) &&
+              ekf::is_outline(landmark_observation_t::KIND_EDGE_RIGHT) &&
+              !ekf::is_outline(landmark_observation_t::KIND_CREASE_CONVEX) &&
+              !ekf::is_outline(landmark_observation_t::KIND_POLE));
 
 // A camera of 640 columns has six or more in each beam.
 constexpr double kFirstBeam_rad = -0.8;

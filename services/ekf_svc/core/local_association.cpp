@@ -57,7 +57,7 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
     const double distance_m2 = (local.p_map_m - p_map_m).squaredNorm();
     if (distance_m2 > kNewLandmarkSq * (noise_m2 + local.spread_m2)) continue;
     const Residual chord = filter_->observation_residual(local.index, seen);
-    if (!may_be(filter_->landmark(local.index), chord, seen)) continue;
+    if (!may_be(filter_->landmark(local.index), range_off(chord, seen, travel_m_))) continue;
     const Residual residual = unrolled(*filter_, chord, seen);
     const Eigen::Matrix2d S = filter_->innovation_covariance(residual);
     const double relative_m2 = S.trace() - residual.noise.trace();
@@ -77,12 +77,6 @@ bool LocalAssociation::offer(std::size_t sighting, const Sighting& what,
   }
   offers_.push_back(offer);
   return true;
-}
-
-bool LocalAssociation::may_be(const Landmark& landmark, const Residual& chord,
-                              const BodyObservation& seen) const {
-  return !is_outline(landmark.kind) ||
-         repeats(landmark.range_off, range_off(chord, seen, travel_m_));
 }
 
 /// Known so well that no other landmark of the kind could be meant, but those so near it that a

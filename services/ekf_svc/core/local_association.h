@@ -50,7 +50,6 @@ class LocalAssociation {
   };
 
   bool are_all_taken(std::size_t offer) const;
-  bool may_be(const Landmark& landmark, const Residual& chord, const BodyObservation& seen) const;
   bool is_well_known(const LocalLandmark& local, double variance_m2, double noise_m2) const;
 
   const SlamFilter* filter_;

@@ -24,6 +24,10 @@ bool repeats(const RangeOff& before, const RangeOff& now) {
   return std::abs(now.off_m - before.off_m) <= 3.0 * sigma_m;
 }
 
+bool may_be(const Landmark& landmark, const RangeOff& now) {
+  return !is_outline(landmark.kind) || repeats(landmark.range_off, now);
+}
+
 Eigen::Matrix2d turned_softening(double turned_rad, double shift_m_per_rad) {
   if (!std::isfinite(turned_rad)) return Eigen::Matrix2d::Zero();
   const double shift_m = shift_m_per_rad * wrap_angle(turned_rad);

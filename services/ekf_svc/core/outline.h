@@ -24,6 +24,9 @@ RangeOff range_off(const Residual& chord, const BodyObservation& seen, double tr
 /// apart by that. After 2 m nothing is asked.
 bool repeats(const RangeOff& before, const RangeOff& now);
 
+/// Whether `landmark` may be what is seen that far off: only outlines are asked to repeat.
+bool may_be(const Landmark& landmark, const RangeOff& now);
+
 /// What to add to an outline's noise, for the correction alone, when it is seen from `turned_rad`
 /// beside where it was first seen from: another corner may be the outline from there, farther off
 /// by `shift_m_per_rad` a radian at one sigma. 0 where the first direction is not known (not a

@@ -292,10 +292,11 @@ void Slam::note_seen(std::span<const Sighting> sightings, std::span<const Verdic
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     if (verdicts[i] != Verdict::kMatched && verdicts[i] != Verdict::kHeld) continue;
     const std::size_t l = candidates_[i].landmark;
+    Landmark& landmark = filter_.landmark(l);
+    landmark.last_seen_travel_m = travel_m_;
+    if (!is_outline(landmark.kind)) continue;
     const BodyObservation seen = body(sightings[i]);
-    filter_.landmark(l).last_seen_travel_m = travel_m_;
-    filter_.landmark(l).range_off =
-        range_off(filter_.observation_residual(l, seen), seen, travel_m_);
+    landmark.range_off = range_off(filter_.observation_residual(l, seen), seen, travel_m_);
   }
 }
 

@@ -48,7 +48,7 @@ std::size_t TentativeLandmarks::find(const Sighting& sighting, const BodyObserva
     if (thing.is_seen || landmark.kind != sighting.kind) continue;
     const Residual residual = filter_->observation_residual(thing.landmark, seen);
     const RangeOff off = range_off(residual, seen, travel_m_);
-    if (is_outline(sighting.kind) && !repeats(landmark.range_off, off)) continue;
+    if (!may_be(landmark, off)) continue;
     const SignatureDistance colour = distance(sighting.signature, landmark.signature);
     const double squared =
         mahalanobis_sq(residual.innovation, filter_->innovation_covariance(residual)) +
