@@ -227,6 +227,8 @@ void create_seeds(Corpus corpus) {
   corpus.add(
       Bytes{1, 1, 128, 131, 152, 6, 137, 0, 100, 128, 0, 153, 153, 155, 1, 158, 5, 154, 136});
   corpus.add(Bytes{10, 17, 128, 140, 0, 1, 60, 8, 141, 0, 135, 131, 146, 0, 255, 255, 1, 201});
+  // A frame of 425 bytes, cut to the 172 of its slot, which its length byte (425 - 256) fits too.
+  corpus.add(Bytes{0, 0, 128, 148, 10, 100, 100, 100, 100, 100, 3, 7, 8, 9, 19, 0, 0});
 }
 
 void log_seeds(Corpus corpus, const std::filesystem::path& scratch) {
