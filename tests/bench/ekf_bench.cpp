@@ -3,8 +3,11 @@
 //
 // landmarks_N/.../frame   one step of odometry and one frame of the few landmarks in a 57 degree
 //                         view, identities known, N landmarks in the map
-// sweep_N/.../pass        the upper half of the covariance of N landmarks, read and written once
+// sweep_N/roomwise/pass   the upper half of the covariance of N landmarks, read and written once
 //                         for one landmark seen (4 terms); bytes counted once in, once out
+// sweep_N/in_place/pass   as many bytes in one row, in and out with next to no arithmetic: what the
+//                         cache gives, where there is one as large
+// memory/in_place/pass    the same in a buffer beyond any cache: what the memory gives
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -169,14 +172,14 @@ void frames(benchmark::State& state, int landmarks) {
       benchmark::Counter(static_cast<double>(seen), benchmark::Counter::kAvgIterations);
 }
 
-/// Bytes a pass moves: every element of the upper half in and out.
-double pass_bytes(std::size_t n) {
-  return 8.0 * static_cast<double>(n) * static_cast<double>(n + 1);
-}
+constexpr std::size_t kBeyondCaches = std::size_t{32} << 20;  // doubles: 256 MiB
 
-void count_bytes(benchmark::State& state, std::size_t n) {
-  state.counters["GB_per_s"] =
-      benchmark::Counter(1e-9 * pass_bytes(n), benchmark::Counter::kIsIterationInvariantRate);
+std::size_t upper_half_size(std::size_t n) { return n * (n + 1) / 2; }
+
+/// Counts what a pass over `size` doubles moves: every one of them in and out.
+void count_bytes(benchmark::State& state, std::size_t size) {
+  state.counters["GB_per_s"] = benchmark::Counter(1e-9 * 16.0 * static_cast<double>(size),
+                                                  benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void sweep(benchmark::State& state, std::size_t n) {
@@ -190,7 +193,7 @@ void sweep(benchmark::State& state, std::size_t n) {
   }
   sweep_upper(store.data(), store.stride(), n, terms);  // the system hands out the pages
   for (auto _ : state) sweep_upper(store.data(), store.stride(), n, terms);
-  count_bytes(state, n);
+  count_bytes(state, upper_half_size(n));
 }
 
 ROOMWISE_MULTIVERSION
@@ -198,16 +201,14 @@ void scale(double* values, std::size_t size, double by) {
   for (std::size_t i = 0; i < size; ++i) values[i] *= by;
 }
 
-/// The same bytes in and out with next to no arithmetic: what the memory gives.
-void scale_in_place(benchmark::State& state, std::size_t n) {
-  const std::size_t size = n * (n + 1) / 2;
+void scale_in_place(benchmark::State& state, std::size_t size) {
   AlignedBuffer values(size);
   scale(values.data(), size, 0.0);
   for (auto _ : state) {
     scale(values.data(), size, 1.0000001);
     benchmark::ClobberMemory();
   }
-  count_bytes(state, n);
+  count_bytes(state, size);
 }
 
 void add_frames(int landmarks) {
@@ -228,11 +229,17 @@ void add_frames(int landmarks) {
 void add_sweep(std::size_t landmarks) {
   const std::string subject = "sweep_" + std::to_string(landmarks);
   const std::size_t n = SlamFilter::landmark_index(landmarks);
-  benchmark::RegisterBenchmark((subject + "/memory_in_place/pass").c_str(), [n](auto& state) {
-    scale_in_place(state, n);
+  benchmark::RegisterBenchmark((subject + "/in_place/pass").c_str(), [n](auto& state) {
+    scale_in_place(state, upper_half_size(n));
   })->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark((subject + "/roomwise/pass").c_str(), [n](auto& state) {
     sweep(state, n);
+  })->Unit(benchmark::kMillisecond);
+}
+
+void add_memory() {
+  benchmark::RegisterBenchmark("memory/in_place/pass", [](auto& state) {
+    scale_in_place(state, kBeyondCaches);
   })->Unit(benchmark::kMillisecond);
 }
 
@@ -246,6 +253,7 @@ int main(int argc, char** argv) {
 #endif
   for (const int landmarks : {30, 100, 300, 1000}) roomwise::ekf::add_frames(landmarks);
   for (const std::size_t landmarks : {1000U, 2000U}) roomwise::ekf::add_sweep(landmarks);
+  roomwise::ekf::add_memory();
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -111,8 +111,8 @@ def ekf_rows(runs):
                          100.0 if (count, peer) == (300, "mrpt_naive") else None)
             for peer in ("mrpt_naive", "mrpt_davison") for count in (30, 300, 1000)]
     for count in (1000, 2000):
-        ours, memory = (runs.counter(f"sweep_{count}/{who}/pass", "GB_per_s")
-                        for who in ("roomwise", "memory_in_place"))
+        ours = runs.counter(f"sweep_{count}/roomwise/pass", "GB_per_s")
+        memory = runs.counter("memory/in_place/pass", "GB_per_s")
         rows.append(Row(f"covariance sweep, {count} landmarks", shown(ours, "GB/s"),
                         f"{shown(memory, 'GB/s')}, memory",
                         ours / memory if ours and memory else None, least=0.7))

@@ -28,7 +28,7 @@ def ekf(peers=("mrpt_naive", "mrpt_davison")):
     frames = [run("landmarks_300/roomwise/frame", 50, "us")]
     frames += [run(f"landmarks_300/{peer}/frame", 20.0 - i) for i, peer in enumerate(peers)]
     return frames + [run("sweep_1000/roomwise/pass", 1.0, GB_per_s=6.0),
-                     run("sweep_1000/memory_in_place/pass", 1.0, GB_per_s=10.0)]
+                     run("memory/in_place/pass", 1.0, GB_per_s=10.0)]
 
 
 class Ratios(unittest.TestCase):

@@ -1,56 +1,88 @@
 #include "services/ekf_svc/core/covariance_sweep.h"
 
-#include <stdexcept>
+#include <algorithm>
 
 #include "common/multiversion.h"
 
 namespace roomwise::ekf {
 namespace {
 
-constexpr std::size_t kRows = 4;     // of a tile; its coefficients and sums stay in registers
-constexpr std::size_t kColumns = 8;  // one cache line
+constexpr std::size_t kRows = 4;  // of a tile; with kTermsAtOnce, all stays in registers
+constexpr std::size_t kTermsAtOnce = 4;
+constexpr std::size_t kLineSize = 8;  // doubles of a cache line
+/// Of a band: its part of a tile, of the next one and of the terms at once stay in the first cache.
+constexpr std::size_t kBandColumns = 320;
 using Line [[gnu::vector_size(64), gnu::may_alias]] = double;
 
-struct Coefficients {
-  double of[kSweepTermsMax][kRows];
+/// kRows rows from row `i` on, columns [j_begin, j_end).
+struct Tile {
+  double* rows;
+  const double* next_rows;  ///< of the tile that comes next, to be fetched meanwhile
+  std::size_t stride;
+  std::size_t i;
+  std::size_t j_begin;
+  std::size_t j_end;
 };
 
-void load_coefficients(std::span<const SweepTerm> terms, std::size_t i0, Coefficients& c) {
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    for (std::size_t r = 0; r < kRows; ++r) c.of[k][r] = terms[k].sign * terms[k].left[i0 + r];
+/// Count terms, each a fixed number so that the coefficients stay in registers; inlined into each
+/// version of add_terms for the vector units that one is for.
+template <std::size_t Count>
+[[gnu::always_inline]] inline void add_terms_at_once(const Tile& tile, const SweepTerm* terms) {
+  const std::size_t stride = tile.stride;
+  double coefficients[Count][kRows];
+  const double* right[Count];
+  for (std::size_t k = 0; k < Count; ++k) {
+    right[k] = terms[k].right;
+    for (std::size_t r = 0; r < kRows; ++r) {
+      coefficients[k][r] = terms[k].sign * terms[k].left[tile.i + r];
+    }
+  }
+  for (std::size_t j = tile.j_begin; j < tile.j_end; j += kLineSize) {
+    Line sum[kRows];
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < kRows; ++r) {
+      __builtin_prefetch(tile.next_rows + r * stride + j, 1);
+      sum[r] = *reinterpret_cast<const Line*>(tile.rows + r * stride + j);
+    }
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < Count; ++k) {
+      const Line factor = *reinterpret_cast<const Line*>(right[k] + j);
+#pragma GCC unroll 4
+      for (std::size_t r = 0; r < kRows; ++r) sum[r] += coefficients[k][r] * factor;
+    }
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < kRows; ++r) {
+      *reinterpret_cast<Line*>(tile.rows + r * stride + j) = sum[r];
+    }
   }
 }
 
 ROOMWISE_MULTIVERSION
-void sweep_rows(double* rows, std::size_t stride, std::size_t j_begin, std::size_t j_end,
-                const SweepTerm* terms, std::size_t term_count, const Coefficients& c) {
-  for (std::size_t j = j_begin; j < j_end; j += kColumns) {
-    Line* p0 = reinterpret_cast<Line*>(rows + j);
-    Line* p1 = reinterpret_cast<Line*>(rows + stride + j);
-    Line* p2 = reinterpret_cast<Line*>(rows + 2 * stride + j);
-    Line* p3 = reinterpret_cast<Line*>(rows + 3 * stride + j);
-    Line sum0 = *p0, sum1 = *p1, sum2 = *p2, sum3 = *p3;
-    for (std::size_t k = 0; k < term_count; ++k) {
-      const Line right = *reinterpret_cast<const Line*>(terms[k].right + j);
-      sum0 += c.of[k][0] * right;
-      sum1 += c.of[k][1] * right;
-      sum2 += c.of[k][2] * right;
-      sum3 += c.of[k][3] * right;
-    }
-    *p0 = sum0, *p1 = sum1, *p2 = sum2, *p3 = sum3;
+void add_terms(const Tile& tile, const SweepTerm* terms, std::size_t count) {
+  for (; count >= kTermsAtOnce; count -= kTermsAtOnce, terms += kTermsAtOnce) {
+    add_terms_at_once<kTermsAtOnce>(tile, terms);
   }
+  if (count == 3) add_terms_at_once<3>(tile, terms);
+  if (count == 2) add_terms_at_once<2>(tile, terms);
+  if (count == 1) add_terms_at_once<1>(tile, terms);
 }
 
 }  // namespace
 
 void sweep_upper(double* matrix, std::size_t stride, std::size_t n,
                  std::span<const SweepTerm> terms) {
-  if (terms.size() > kSweepTermsMax) throw std::logic_error("covariance sweep: too many terms");
-  Coefficients coefficients;
-  for (std::size_t i = 0; i < n; i += kRows) {
-    load_coefficients(terms, i, coefficients);
-    sweep_rows(matrix + i * stride, stride, i / kColumns * kColumns, n, terms.data(), terms.size(),
-               coefficients);
+  for (std::size_t band = 0; band < n; band += kBandColumns) {
+    const std::size_t band_end = std::min(n, band + kBandColumns);
+    for (std::size_t i = 0; i < band_end; i += kRows) {
+      const std::size_t next = i + kRows < band_end ? i + kRows : i;
+      const Tile tile{matrix + i * stride,
+                      matrix + next * stride,
+                      stride,
+                      i,
+                      std::max(band, i / kLineSize * kLineSize),
+                      band_end};
+      add_terms(tile, terms.data(), terms.size());
+    }
   }
 }
 

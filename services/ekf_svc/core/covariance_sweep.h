@@ -11,14 +11,11 @@ struct SweepTerm {
   double sign;
 };
 
-/// Most terms one sweep takes.
-inline constexpr std::size_t kSweepTermsMax = 66;
-
 /// Adds the sum of `terms` to the n x n matrix at `matrix` (row-major, rows on cache lines, room
 /// for n rounded up to 8 rows and columns), on and above the diagonal; below it, values of the same
-/// tile may change too. The sum must be symmetric. Each cache line of the upper half is read and
-/// written once: for few terms the sweep runs at the speed of memory. Fixed order of summation.
-/// Throws std::logic_error on more than kSweepTermsMax terms.
+/// tile may change too. The sum must be symmetric. Each cache line of the upper half comes from
+/// memory and goes back once: for few terms the sweep runs at the speed of memory. Every element
+/// is summed in the order of the terms.
 void sweep_upper(double* matrix, std::size_t stride, std::size_t n,
                  std::span<const SweepTerm> terms);
 

@@ -262,7 +262,7 @@ void SlamFilter::correct_robot(std::size_t dimension, const double* correction) 
 
 void SlamFilter::sweep(std::size_t dimension) {
   const std::size_t n = size();
-  std::array<SweepTerm, kSweepTermsMax> terms;
+  std::array<SweepTerm, kDimensionMax + 2> terms;
   for (std::size_t k = 0; k < dimension; ++k) terms[k] = {gain(k), gain(k), -1.0};
   std::size_t term_count = dimension;
   if (form_ == ErrorForm::kInvariant) {
