@@ -39,13 +39,29 @@ void add_true_landmarks(Bus& bus, const truth_t& truth, std::vector<MapPoint>& l
   }
 }
 
+void add_scan(Bus& bus, const landmark_list_t& message, std::vector<Eigen::Vector2d>& scan) {
+  scan.reserve(message.scan_x_m.size());
+  for (std::size_t i = 0; i < message.scan_x_m.size(); ++i) {
+    const Eigen::Vector2d point(message.scan_x_m[i], message.scan_y_m[i]);
+    if (are_coordinates({point.x(), point.y()})) {
+      scan.push_back(point);
+    } else {
+      bus.count("scan_point_not_usable");
+    }
+  }
+}
+
 void add_seen(Bus& bus, const landmark_list_t& message, std::vector<SeenFrame>& frames) {
   if (message.frame_seq == 0) return;  // of no camera frame
   if (!is_time(message.utime)) {
     bus.count("landmarks_time_not_usable");
     return;
   }
-  SeenFrame& frame = frames.emplace_back(SeenFrame{message.utime, {}});
+  SeenFrame& frame = frames.emplace_back();
+  frame.utime = message.utime;
+  frame.range_min_m = message.range_min_m;
+  frame.range_max_m = message.range_max_m;
+  add_scan(bus, message, frame.scan_robot_m);
   for (const landmark_observation_t& seen : message.landmarks) {
     if (!are_coordinates({seen.range_m, seen.bearing_rad})) {
       bus.count("landmark_not_usable");

@@ -68,6 +68,8 @@ void add_landmarks(const Recording& recording, Scores& scores) {
   scores.emplace_back("landmarks_true_per_frame", per_frame(score.matches.size()));
   scores.emplace_back("landmarks_false_per_frame", score.false_per_frame());
   scores.emplace_back("landmarks_precision", score.precision_ratio());
+  scores.emplace_back("landmarks_in_sight_per_frame", per_frame(score.in_sight));
+  scores.emplace_back("landmarks_in_sight_found", score.found_ratio());
   scores.emplace_back("landmarks_error_rms_m", score.error_rms_m());
   scores.emplace_back("landmarks_repeat_std_to_2m", score.repeat_std_m(0.0, 2.0));
   scores.emplace_back("landmarks_repeat_std_2m_to_3.5m", score.repeat_std_m(2.0, 3.5));

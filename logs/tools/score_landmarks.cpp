@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "roomwise/landmark_observation_t.hpp"
@@ -15,6 +16,7 @@ using Observation = landmark_observation_t;
 
 constexpr double kGate_m = 0.10;
 constexpr double kGatePerRange = 0.02;
+constexpr double kInSight_m = 0.05;
 
 bool may_be(std::int8_t kind, std::int8_t true_kind) {
   switch (kind) {
@@ -43,6 +45,15 @@ std::optional<LandmarkMatch> match(const SeenLandmark& seen, const Pose2& T_worl
   return best;
 }
 
+bool is_in_sight(const MapPoint& landmark, const SeenFrame& frame, const Pose2& T_world_robot) {
+  const Eigen::Vector2d p_robot_m = transform(inverse(T_world_robot), landmark.p_m);
+  const double range_m = p_robot_m.norm();
+  if (range_m < frame.range_min_m || range_m > frame.range_max_m) return false;
+  return std::ranges::any_of(frame.scan_robot_m, [&](const Eigen::Vector2d& point_m) {
+    return (point_m - p_robot_m).squaredNorm() < kInSight_m * kInSight_m;
+  });
+}
+
 double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
 /// Sightings of one thing under one kind, in order of time.
@@ -61,12 +72,16 @@ double LandmarkCounts::precision_ratio() const {
 }
 
 LandmarkCounts LandmarkScore::of_kind(std::int8_t kind) const {
-  const auto found = by_kind.find(kind);
-  return found == by_kind.end() ? LandmarkCounts{} : found->second;
+  const auto counts = by_kind.find(kind);
+  return counts == by_kind.end() ? LandmarkCounts{} : counts->second;
 }
 
 double LandmarkScore::precision_ratio() const {
   return ratio(static_cast<double>(matches.size()), static_cast<double>(seen));
+}
+
+double LandmarkScore::found_ratio() const {
+  return ratio(static_cast<double>(found), static_cast<double>(in_sight));
 }
 
 double LandmarkScore::false_per_frame() const {
@@ -113,23 +128,41 @@ double LandmarkScore::viewpoint_median_m() const {
   return *middle;
 }
 
+namespace {
+
+/// Counts a frame's sightings and returns which true landmarks they show.
+std::set<std::size_t> count_sightings(const SeenFrame& frame, const Pose2& T_world_robot,
+                                      const std::vector<MapPoint>& truth, LandmarkScore& score) {
+  std::set<std::size_t> shown;
+  for (const SeenLandmark& seen : frame.landmarks) {
+    if (seen.moving) {
+      ++score.moving;
+      continue;
+    }
+    ++score.seen;
+    ++score.by_kind[seen.kind].seen;
+    if (const auto found = match(seen, T_world_robot, truth)) {
+      score.matches.push_back(*found);
+      ++score.by_kind[seen.kind].matched;
+      shown.insert(found->truth);
+    }
+  }
+  return shown;
+}
+
+}  // namespace
+
 LandmarkScore score_landmarks(const Recording& recording) {
   LandmarkScore score;
   for (const SeenFrame& frame : recording.seen_frames) {
     const auto pose = pose_at(recording.truth, frame.utime);
     if (!pose) continue;
     ++score.frames;
-    for (const SeenLandmark& seen : frame.landmarks) {
-      if (seen.moving) {
-        ++score.moving;
-        continue;
-      }
-      ++score.seen;
-      ++score.by_kind[seen.kind].seen;
-      if (const auto found = match(seen, *pose, recording.true_landmarks)) {
-        score.matches.push_back(*found);
-        ++score.by_kind[seen.kind].matched;
-      }
+    const auto shown = count_sightings(frame, *pose, recording.true_landmarks, score);
+    for (std::size_t i = 0; i < recording.true_landmarks.size(); ++i) {
+      if (!is_in_sight(recording.true_landmarks[i], frame, *pose)) continue;
+      ++score.in_sight;
+      if (shown.contains(i)) ++score.found;
     }
   }
   return score;

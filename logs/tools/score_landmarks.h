@@ -29,12 +29,15 @@ struct LandmarkScore {
   std::size_t frames = 0;
   std::size_t seen = 0;                ///< at rest, frame by frame
   std::size_t moving = 0;              ///< marked as moving
+  std::size_t in_sight = 0;            ///< true ones, frame by frame
+  std::size_t found = 0;               ///< of those
   std::vector<LandmarkMatch> matches;  ///< in order of time; the rest of `seen` is false
 
   std::map<std::int8_t, LandmarkCounts> by_kind;
 
   LandmarkCounts of_kind(std::int8_t kind) const;
   double precision_ratio() const;
+  double found_ratio() const;  ///< of what is in sight
   double false_per_frame() const;
   double error_rms_m() const;
   /// Scatter of one sighting from `least_m` to `most_m` away: RMS of the difference between two
@@ -48,8 +51,10 @@ struct LandmarkScore {
 /// Matches each sighting to the nearest true landmark it may be: within 0.1 m + 2 % of its range,
 /// and of a fitting kind. A corner that protrudes shows as an edge on either side from where one
 /// face is in view, as a convex crease from where both are; an edge may also be a pole's whose
-/// other side is hidden; a pole may be a thin board of something larger. Frames without a true pose
-/// are left out.
+/// other side is hidden; a pole may be a thin board of something larger. A true landmark is in
+/// sight where the frame's virtual scan comes within 5 cm of it, in the range looked at, and found
+/// if a sighting was matched to it: of corners close together, the one of a door's frame and the
+/// one of its leaf, one sighting finds one. Frames without a true pose are left out.
 LandmarkScore score_landmarks(const Recording& recording);
 
 }  // namespace roomwise

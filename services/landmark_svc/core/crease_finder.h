@@ -13,7 +13,7 @@ namespace roomwise::landmark {
 
 /// What counts as a crease: where two upright planes meet.
 struct CreaseParams {
-  double side_min_m = 0.07;           ///< straight length needed on either side
+  double side_min_m = 0.05;           ///< straight length needed on either side
   double side_max_m = 0.25;           ///< and looked at
   double angle_min_rad = 0.70;        ///< between the two sides
   double residual_max_quanta = 0.30;  ///< RMS of disparity about either side's line: the sensor's

@@ -18,7 +18,7 @@ struct JumpEdgeParams {
   double gap_slope_quanta_px = 1.0;  ///< extra disparity asked for each bridged column
   int near_run_px = 6;               ///< unbroken surface asked for on the near side, at 640 px
                                      ///< image width; at least 4, at most 8 pixels
-  int far_run_px = 3;                ///< pixels that must stay far on the far side
+  int far_run_px = 2;                ///< pixels that must stay far on the far side
   double range_min_m = 0.6;          ///< trusted depths of the near pixel
   double range_max_m = 3.81;
   /// Whether an edge may stand before readings beyond 4095 mm, which are bad: marked is_open.

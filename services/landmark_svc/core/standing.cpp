@@ -114,14 +114,17 @@ void Standing::remember(std::int64_t utime, const Pose2& T_odom_robot,
                         const std::vector<Landmark>& landmarks) {
   const std::int64_t newest = known_ > 0 ? past_[(next_ + kFrames - 1) % kFrames].utime : utime;
   if (utime < newest || utime > newest + kForgetAfter_us) clear();
+  const auto moves = [](const Seen& seen) { return seen.is_moving; };
+  const bool moved_before = any_seen_since(newest - kForgetAfter_us, moves);
   Past& past = past_[next_];
   past.utime = utime;
   past.seen.clear();
   for (const Landmark& landmark : landmarks) {
     past.seen.push_back(
         {landmark.kind, in_odom_m(T_odom_robot, landmark), landmark.is_moving, false});
-    if (landmark.is_moving) moved_utime_ = utime;
   }
+  const bool moves_now = std::any_of(past.seen.begin(), past.seen.end(), moves);
+  if (moves_now && moved_before) moved_utime_ = utime;
   next_ = (next_ + 1) % kFrames;
   known_ = std::min(known_ + 1, kFrames);
 }

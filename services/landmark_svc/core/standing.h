@@ -69,7 +69,9 @@ class Standing {
   std::array<Past, kFrames> past_;
   std::size_t known_ = 0;
   std::size_t next_ = 0;
-  std::optional<std::int64_t> moved_utime_;  ///< when anything moved last
+  /// When anything moved last, in a second frame of those remembered: the mask errs in one alone,
+  /// a walker does not show in one alone.
+  std::optional<std::int64_t> moved_utime_;
 };
 
 }  // namespace roomwise::landmark

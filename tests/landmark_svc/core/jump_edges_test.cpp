@@ -173,7 +173,7 @@ TEST(JumpEdges, FlyingPixelsAndSpecksAreNone) {
   EXPECT_TRUE(speck.edges.empty());
   EXPECT_EQ(speck.rejected.of(RejectReason::kEdgeNearTooShort), 2);
 
-  const auto hole = find(image_of(runs({{20, 1500}, {2, 3000}, {20, 1500}})));
+  const auto hole = find(image_of(runs({{20, 1500}, {1, 3000}, {20, 1500}})));
   EXPECT_TRUE(hole.edges.empty());
   EXPECT_EQ(hole.rejected.of(RejectReason::kEdgeFarTooShort), 2);
 }
