@@ -55,6 +55,8 @@ class DisparityTable {
 
   /// 8 f b: disparity in quanta times depth.
   double quanta_m() const { return quanta_m_; }
+  /// Disparity in quanta times step, likewise the same for all.
+  double quanta_steps() const { return quanta_m_ / unit_m_; }
 
   /// Depth of one quantum at depth `z_m`.
   double quantum_m(double z_m) const { return z_m * z_m / quanta_m_; }

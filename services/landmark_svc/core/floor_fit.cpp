@@ -11,21 +11,37 @@ namespace {
 
 constexpr double kHeightMin_m = 0.05;
 constexpr double kHeightMax_m = 3.0;
-constexpr int kColumns = 107;  // every 6th of 640
-constexpr int kPointsFewest = 80;
+constexpr int kColumns = 80;  // about: never twice as many
+constexpr int kPointsFewest = 40;
 constexpr double kPriorSigma_ratio = 0.05;
 constexpr double kCosTurnMax = 0.966;  // 15 degrees
 constexpr std::array<double, 3> kBands_m = {0.10, 0.05, 0.03};
 constexpr double kNoise_quanta = 2.0;
 
-constexpr int kColumnsMax = 2 * kColumns;
-using GridRow = Eigen::Array<float, Eigen::Dynamic, 1, 0, kColumnsMax, 1>;  // on the stack
+using GridRow = Eigen::Array<float, Eigen::Dynamic, 1, 0, 2 * kColumns, 1>;  // on the stack
 
-int stride_px(int width_px) { return std::max(1, width_px / kColumns); }
+/// Which columns or rows of an image make the grid.
+struct GridLine {
+  int first_px;
+  int stride_px;
+  int count;
+};
 
-/// Columns or rows of the grid along a side of the image: the first is half a stride from its end.
-int grid_count(int side_px, int stride_px) {
-  return (side_px - stride_px / 2 + stride_px - 1) / stride_px;
+/// Odd, so that a grid can lie in the middle of an even number of columns.
+int stride_px(int width_px) { return (width_px / kColumns) | 1; }
+
+/// In the middle: what a mirrored image shows is seen at mirrored places.
+GridLine columns_of(int width_px) {
+  const int stride = stride_px(width_px);
+  const int most = (width_px - 1) / stride + 1;
+  const int count = (most - width_px) % 2 == 0 ? most : most - 1;
+  return {(width_px - 1 - (count - 1) * stride) / 2, stride, count};
+}
+
+GridLine rows_of(int width_px, int height_px) {
+  const int stride = stride_px(width_px);
+  const int first = std::min(stride / 2, height_px - 1);
+  return {first, stride, (height_px - 1 - first) / stride + 1};
 }
 
 /// Whether no good reading of a row can be within the band: above the horizon, and where the floor
@@ -62,24 +78,24 @@ struct FloorFitter::Round {
 };
 
 void FloorFitter::reserve(int width_px, int height_px) {
-  const int stride = stride_px(width_px);
-  const auto rows = static_cast<std::size_t>(grid_count(height_px, stride));
-  quanta_.reserve(rows * static_cast<std::size_t>(grid_count(width_px, stride)));
+  const auto rows = static_cast<std::size_t>(rows_of(width_px, height_px).count);
+  quanta_.reserve(rows * static_cast<std::size_t>(columns_of(width_px).count));
   is_looked_up_.reserve(rows);
 }
 
-const float* FloorFitter::row_quanta(const DepthImage& depth, const DisparityTable& table, int row,
-                                     int columns) {
+const float* FloorFitter::row_quanta(const DepthImage& depth, const DisparityTable& table,
+                                     int row) {
+  const GridLine columns = columns_of(depth.width_px);
+  const GridLine rows = rows_of(depth.width_px, depth.height_px);
   float* const quanta =
-      quanta_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
+      quanta_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns.count);
   std::uint8_t& is_looked_up = is_looked_up_[static_cast<std::size_t>(row)];
   if (is_looked_up != 0) return quanta;
   is_looked_up = 1;
-  const int stride = stride_px(depth.width_px);
-  const auto v = static_cast<std::size_t>(stride / 2 + row * stride);
+  const auto v = static_cast<std::size_t>(rows.first_px + row * rows.stride_px);
   const std::uint16_t* steps =
-      depth.steps.data() + v * static_cast<std::size_t>(depth.width_px) + stride / 2;
-  for (int k = 0; k < columns; ++k, steps += stride) {
+      depth.steps.data() + v * static_cast<std::size_t>(depth.width_px) + columns.first_px;
+  for (int k = 0; k < columns.count; ++k, steps += columns.stride_px) {
     quanta[k] = static_cast<float>(table.parts(*steps)) /
                 static_cast<float>(DisparityTable::kPartsPerQuantum);
   }
@@ -91,28 +107,28 @@ FloorFitter::Round FloorFitter::gather_near(const DepthImage& depth, const Pinho
                                             const DisparityTable& table,
                                             const Eigen::Vector3d& gradient, double band_ratio) {
   Round round;
-  const int stride = stride_px(depth.width_px);
-  const int first = stride / 2;
-  const int columns = grid_count(depth.width_px, stride);
-  GridRow x(columns);
-  for (int k = 0; k < columns; ++k) {
-    x[k] = static_cast<float>((first + k * stride - camera.cx_px) / camera.fx_px);
+  const GridLine columns = columns_of(depth.width_px);
+  const GridLine rows = rows_of(depth.width_px, depth.height_px);
+  GridRow x(columns.count);
+  for (int k = 0; k < columns.count; ++k) {
+    x[k] = static_cast<float>((columns.first_px + k * columns.stride_px - camera.cx_px) /
+                              camera.fx_px);
   }
   const auto band = static_cast<float>(band_ratio);
   constexpr auto kNoise = static_cast<float>(kNoise_quanta);
-  GridRow off(columns);
-  GridRow counts(columns);
+  GridRow off(columns.count);
+  GridRow counts(columns.count);
   const double farthest_quanta = table.quanta_m() / DisparityTable::kDepthMax_m;
   const auto x_first = static_cast<double>(x[0]);
-  const auto x_last = static_cast<double>(x[columns - 1]);
-  const int rows = grid_count(depth.height_px, stride);
-  for (int row = 0; row < rows; ++row) {
-    const double y = (first + row * stride - camera.cy_px) / camera.fy_px;
+  const auto x_last = static_cast<double>(x[columns.count - 1]);
+  for (int row = 0; row < rows.count; ++row) {
+    const double y = (rows.first_px + row * rows.stride_px - camera.cy_px) / camera.fy_px;
     if (holds_no_floor(gradient, y, x_first, x_last, band_ratio, farthest_quanta)) continue;
-    const Eigen::Map<const GridRow> quanta(row_quanta(depth, table, row, columns), columns);
+    const Eigen::Map<const GridRow> quanta(row_quanta(depth, table, row), columns.count);
     const auto of_row = static_cast<float>(gradient.y() * y + gradient.z());
     off = quanta - of_row - static_cast<float>(gradient.x()) * x;
-    for (int k = 0; k < columns; ++k) {  // as a loop, or it is not done many columns at a time
+    for (int k = 0; k < columns.count;
+         ++k) {  // as a loop, or it is not done many columns at a time
       const bool is_near = std::abs(off[k]) <= band * quanta[k] + kNoise;
       counts[k] =
           static_cast<float>(static_cast<int>(is_near) & static_cast<int>(quanta[k] > 0.0F));
@@ -133,9 +149,8 @@ std::optional<FloorView> FloorFitter::fit(const DepthImage& depth, const Pinhole
   const double prior = 1.0 / (kPriorSigma_ratio * kPriorSigma_ratio * mounted.squaredNorm());
   const FloorView as_mounted{mounted_down, mounted_height_m, 0};
 
-  const int stride = stride_px(depth.width_px);
-  const auto rows = static_cast<std::size_t>(grid_count(depth.height_px, stride));
-  quanta_.resize(rows * static_cast<std::size_t>(grid_count(depth.width_px, stride)));
+  const auto rows = static_cast<std::size_t>(rows_of(depth.width_px, depth.height_px).count);
+  quanta_.resize(rows * static_cast<std::size_t>(columns_of(depth.width_px).count));
   is_looked_up_.assign(rows, 0);
 
   Eigen::Vector3d gradient = mounted;

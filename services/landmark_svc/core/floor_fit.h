@@ -24,10 +24,10 @@ struct FloorView {
 ///   D(u, v) = g . (x, y, 1),   g = (Q / H) n,   x = (u - cx) / fx,   y = (v - cy) / fy,
 ///
 /// and a reading D lies h = H (1 - g . (x, y, 1) / D) above it. Three rounds of least squares for g
-/// over readings within 10, 5, 3 cm and 2 quanta of the last plane, on a grid of about 100 columns.
+/// over readings within 10, 5, 3 cm and 2 quanta of the last plane, on a grid of about 80 columns.
 /// Noise is uniform in disparity, so all weigh alike; the mounting is one more measurement, with a
 /// sigma of 5 % of |g|: about 3 degrees or 5 % of the height, to keep what no floor in view tells.
-/// Falls back to the mounting with fewer than 80 readings or 15 degrees and more from it.
+/// Falls back to the mounting with fewer than 40 readings or 15 degrees and more from it.
 ///
 /// Readings are looked up once for all rounds, and only in rows that can show the floor.
 class FloorFitter {
@@ -45,8 +45,7 @@ class FloorFitter {
                     const DisparityTable& table, const Eigen::Vector3d& gradient,
                     double band_ratio);
   /// Disparities of a row of the grid [quanta]; 0: bad data.
-  const float* row_quanta(const DepthImage& depth, const DisparityTable& table, int row,
-                          int columns);
+  const float* row_quanta(const DepthImage& depth, const DisparityTable& table, int row);
 
   std::vector<float> quanta_;               // of the grid, row by row
   std::vector<std::uint8_t> is_looked_up_;  // of each row

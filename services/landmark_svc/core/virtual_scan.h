@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +7,7 @@
 #include "services/landmark_svc/core/disparity_table.h"
 #include "services/landmark_svc/core/floor_fit.h"
 #include "services/landmark_svc/core/region_of_interest.h"
+#include "services/landmark_svc/core/scan_clusters.h"
 
 namespace roomwise::landmark {
 
@@ -34,8 +34,8 @@ struct ScanPoint {
 /// has no reading is left out: unknown, not free.
 ///
 /// Readings are compared by Q / r, r the distance along the level viewing direction: equal for all
-/// heights of an upright surface, with the noise of one disparity quantum. A column keeps its three
-/// nearest clusters while the rows go by, so one pass over the image does.
+/// heights of an upright surface, with the noise of one disparity quantum. ScanClusters sorts them
+/// while the rows go by, so one pass over the image does.
 class VirtualScan {
  public:
   /// Makes room for images of that width: make() allocates nothing then.
@@ -59,28 +59,12 @@ class VirtualScan {
   const Eigen::Vector2d& origin_m() const { return origin_m_; }
 
  private:
-  struct Cluster {
-    float sum = 0.0F;  ///< of Q / r [quanta]
-    std::int32_t rows = 0;
-    std::int16_t v_top_px = 0;
-    std::int16_t v_bottom_px = 0;
-
-    float mean() const { return sum / static_cast<float>(rows); }
-    /// Takes a reading that is of it; false if it is not. Not for an empty one.
-    bool take(float quanta, std::int16_t v_px);
-  };
-  static constexpr std::size_t kClusters = 3;
-  using Clusters = std::array<Cluster, kClusters>;
-
-  static void add(Clusters& clusters, float quanta, std::int16_t v_px);
-  static void begin_cluster(Clusters& clusters, float quanta, std::int16_t v_px);
-  static const Cluster* nearest_of(const Clusters& clusters, double rows_min);
   void place_points(const PinholeCamera& camera, const DisparityTable& table,
                     const Eigen::Vector3d& along, const Eigen::Vector3d& left,
                     const PixelRectangle& region, double rows_min);
 
-  std::vector<std::uint8_t> within_;  // of a row's columns: which reading within the slice
-  std::vector<Clusters> columns_;
+  std::vector<float> quanta_;  // of a row's columns: the reading within the slice, 0 for none
+  ScanClusters clusters_;
   std::vector<std::uint16_t> beyond_rows_;  // of each column
   std::vector<ScanPoint> points_;
   std::vector<int> open_px_;
