@@ -51,7 +51,8 @@ int main(int argc, char** argv) {
     trial.goals = behaviour == "tour" ? roomwise::goals_along(roomwise::scene_of(trial.setup), path)
                                       : std::vector{one_goal(behaviour, sense, distance_m)};
     roomwise::enter_private_network();
-    std::cout << trial.setup.scenario << ": " << roomwise::run_trial(trial);
+    const roomwise::Verdict verdict = roomwise::run_trial(trial);
+    std::cout << trial.setup.scenario << ": " << verdict;  // after what is reported on the way
   } catch (const std::exception& error) {
     std::cerr << "pilot_trial: " << error.what() << "\n";
     return 1;
