@@ -13,3 +13,6 @@
 #define ROOMWISE_MULTIVERSION
 #define ROOMWISE_MULTIVERSION_256
 #endif
+
+/// Put before what such a function calls in its loop: inlined, it is compiled for each version too.
+#define ROOMWISE_IN_EACH_VERSION [[gnu::always_inline]] inline

@@ -39,10 +39,10 @@ void add_true_landmarks(Bus& bus, const truth_t& truth, std::vector<MapPoint>& l
   }
 }
 
-void add_scan(Bus& bus, const landmark_list_t& message, std::vector<Eigen::Vector2d>& scan) {
+void add_scan(Bus& bus, const landmark_list_t& message, std::vector<Eigen::Vector2f>& scan) {
   scan.reserve(message.scan_x_m.size());
   for (std::size_t i = 0; i < message.scan_x_m.size(); ++i) {
-    const Eigen::Vector2d point(message.scan_x_m[i], message.scan_y_m[i]);
+    const Eigen::Vector2f point(message.scan_x_m[i], message.scan_y_m[i]);
     if (are_coordinates({point.x(), point.y()})) {
       scan.push_back(point);
     } else {

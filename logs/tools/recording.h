@@ -23,9 +23,9 @@ struct SeenLandmark {
 struct SeenFrame {
   std::int64_t utime = 0;
   std::vector<SeenLandmark> landmarks;
-  double range_min_m = 0.0;  ///< looked for from here
-  double range_max_m = 0.0;  ///< to here
-  std::vector<Eigen::Vector2d> scan_robot_m;
+  double range_min_m = 0.0;                   ///< looked for from here
+  double range_max_m = 0.0;                   ///< to here
+  std::vector<Eigen::Vector2f> scan_robot_m;  ///< as precise as the message: a log has thousands
 };
 
 /// What a log says of where the robot and the landmarks are.

@@ -45,13 +45,33 @@ std::optional<LandmarkMatch> match(const SeenLandmark& seen, const Pose2& T_worl
   return best;
 }
 
-bool is_in_sight(const MapPoint& landmark, const SeenFrame& frame, const Pose2& T_world_robot) {
-  const Eigen::Vector2d p_robot_m = transform(inverse(T_world_robot), landmark.p_m);
+bool is_in_sight(const MapPoint& landmark, const SeenFrame& frame, const Pose2& T_robot_world) {
+  const Eigen::Vector2d p_robot_m = transform(T_robot_world, landmark.p_m);
   const double range_m = p_robot_m.norm();
   if (range_m < frame.range_min_m || range_m > frame.range_max_m) return false;
-  return std::ranges::any_of(frame.scan_robot_m, [&](const Eigen::Vector2d& point_m) {
-    return (point_m - p_robot_m).squaredNorm() < kInSight_m * kInSight_m;
+  return std::ranges::any_of(frame.scan_robot_m, [&](const Eigen::Vector2f& point_m) {
+    return (point_m.cast<double>() - p_robot_m).squaredNorm() < kInSight_m * kInSight_m;
   });
+}
+
+/// Counts a frame's sightings and returns which true landmarks they show.
+std::set<std::size_t> count_sightings(const SeenFrame& frame, const Pose2& T_world_robot,
+                                      const std::vector<MapPoint>& truth, LandmarkScore& score) {
+  std::set<std::size_t> shown;
+  for (const SeenLandmark& seen : frame.landmarks) {
+    if (seen.moving) {
+      ++score.moving;
+      continue;
+    }
+    ++score.seen;
+    ++score.by_kind[seen.kind].seen;
+    if (const auto found = match(seen, T_world_robot, truth)) {
+      score.matches.push_back(*found);
+      ++score.by_kind[seen.kind].matched;
+      shown.insert(found->truth);
+    }
+  }
+  return shown;
 }
 
 double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
@@ -128,30 +148,6 @@ double LandmarkScore::viewpoint_median_m() const {
   return *middle;
 }
 
-namespace {
-
-/// Counts a frame's sightings and returns which true landmarks they show.
-std::set<std::size_t> count_sightings(const SeenFrame& frame, const Pose2& T_world_robot,
-                                      const std::vector<MapPoint>& truth, LandmarkScore& score) {
-  std::set<std::size_t> shown;
-  for (const SeenLandmark& seen : frame.landmarks) {
-    if (seen.moving) {
-      ++score.moving;
-      continue;
-    }
-    ++score.seen;
-    ++score.by_kind[seen.kind].seen;
-    if (const auto found = match(seen, T_world_robot, truth)) {
-      score.matches.push_back(*found);
-      ++score.by_kind[seen.kind].matched;
-      shown.insert(found->truth);
-    }
-  }
-  return shown;
-}
-
-}  // namespace
-
 LandmarkScore score_landmarks(const Recording& recording) {
   LandmarkScore score;
   for (const SeenFrame& frame : recording.seen_frames) {
@@ -159,8 +155,9 @@ LandmarkScore score_landmarks(const Recording& recording) {
     if (!pose) continue;
     ++score.frames;
     const auto shown = count_sightings(frame, *pose, recording.true_landmarks, score);
+    const Pose2 T_robot_world = inverse(*pose);
     for (std::size_t i = 0; i < recording.true_landmarks.size(); ++i) {
-      if (!is_in_sight(recording.true_landmarks[i], frame, *pose)) continue;
+      if (!is_in_sight(recording.true_landmarks[i], frame, T_robot_world)) continue;
       ++score.in_sight;
       if (shown.contains(i)) ++score.found;
     }

@@ -38,12 +38,13 @@ def best_of_mrpt(bin_folder, log, out):
 
 
 def rows_of(bin_folder, folder, data, robot, identities):
-    log, out, best = (pathlib.Path(folder) / name for name in ("run", "out", "best"))
+    log, out, best, believing = (pathlib.Path(folder) / name
+                                 for name in ("run", "out", "best", "believing"))
     mrclam.mapped_run(bin_folder, data, robot, log, out, identities == "unknown")
     rows = {"ekf_svc": score(bin_folder / "rwlog", out)}
-    run_quietly(bin_folder / "ekf_svc", "--replay", log, "--record", best, "--self_calibration",
-                "false")
-    rows["ekf_svc, speeds believed"] = score(bin_folder / "rwlog", best)
+    run_quietly(bin_folder / "ekf_svc", "--replay", log, "--record", believing,
+                "--self_calibration", "false")
+    rows["ekf_svc, speeds believed"] = score(bin_folder / "rwlog", believing)
     if identities == "known":
         run_quietly(bin_folder / "rwlog", "smooth", out, "-o", best)
         rows["in hindsight"] = score(bin_folder / "rwlog", best)

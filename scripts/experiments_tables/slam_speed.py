@@ -77,5 +77,5 @@ def run(bin_folder):
         ratio = dict(lines["mrpt_naive"])[300] / dict(lines["roomwise"])[300]
         bars.append(at_least("300 landmarks: MRPT / ekf_svc", ratio, MRPT_RATIO_LEAST, 1))
     missing = "" if "mrpt_naive" in lines else "MRPT is not installed here"
-    return Result([table_of(lines), sweep_table(speeds), Figure("What a frame costs (times)", plot, "slam_speed")],
-                  bars, missing)
+    return Result([table_of(lines), sweep_table(speeds),
+                   Figure("What a frame costs (times)", plot, "slam_speed")], bars, missing)

@@ -35,11 +35,8 @@ OpenInterfaceParams params_of(std::uint8_t choices) {
 
 /// What is sent in one slot is whole if its length is as it says and it does not fill the slot: a
 /// frame cut where its slot ends may chance to be as long as its length byte, modulo 256, says.
-void require_sum_of_whole_frame(const Transmission& sent, int baud) {
-  constexpr std::int64_t kBitsPerByte = 10;
-  const auto slot = static_cast<std::size_t>(baud * OpenInterface::kSensorPeriod.count() /
-                                             (kBitsPerByte * 1'000'000));
-  if (!sent.is_frame || sent.bytes.size() >= slot) return;
+void require_sum_of_whole_frame(const Transmission& sent, std::size_t slot_bytes) {
+  if (!sent.is_frame || sent.bytes.size() >= slot_bytes) return;
   require(sent.bytes.size() == sent.bytes[1] + 3U);
   unsigned sum = 0;
   for (const std::uint8_t part : sent.bytes) sum += part;
@@ -63,7 +60,7 @@ void fuzz_interface(const OpenInterfaceParams& params, std::span<const std::uint
     require(std::abs(wheels.left) <= 0.5 + 1e-9 && std::abs(wheels.right) <= 0.5 + 1e-9);
     require(interface.mode() != OiMode::kOff || wheels == LeftRight<double>{});
     for (const Transmission& sent : interface.take_transmissions()) {
-      require_sum_of_whole_frame(sent, interface.baud());
+      require_sum_of_whole_frame(sent, interface.bytes_per_slot());
     }
   }
 }

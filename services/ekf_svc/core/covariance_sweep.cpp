@@ -24,10 +24,9 @@ struct Tile {
   std::size_t j_end;
 };
 
-/// Count terms, each a fixed number so that the coefficients stay in registers; inlined into each
-/// version of add_terms for the vector units that one is for.
+/// Count terms, a fixed number so that the coefficients stay in registers.
 template <std::size_t Count>
-[[gnu::always_inline]] inline void add_terms_at_once(const Tile& tile, const SweepTerm* terms) {
+ROOMWISE_IN_EACH_VERSION void add_terms_at_once(const Tile& tile, const SweepTerm* terms) {
   const std::size_t stride = tile.stride;
   double coefficients[Count][kRows];
   const double* right[Count];

@@ -16,9 +16,6 @@ static_assert(sizeof(Floats) == ScanClusters::kAtOnce * sizeof(float));
 constexpr float kApart_quanta = 2.0F;
 constexpr float kApart_ratio = 0.03F;
 
-// Inlined into each version of add_to_all for the vector units that one is for.
-#define ROOMWISE_IN_EACH_VERSION [[gnu::always_inline]] inline
-
 ROOMWISE_IN_EACH_VERSION bool any(const Mask& mask) {
   std::uint64_t parts[sizeof(Mask) / sizeof(std::uint64_t)];
   std::memcpy(parts, &mask, sizeof parts);
@@ -112,12 +109,10 @@ void add_to_all(Tiers* columns, std::size_t count, float v_px, const float* read
 
 }  // namespace
 
-void ScanClusters::reserve(std::size_t columns) {
-  columns_.reserve((columns + kAtOnce - 1) / kAtOnce);
-}
+void ScanClusters::reserve(std::size_t columns) { columns_.reserve(padded(columns) / kAtOnce); }
 
 void ScanClusters::clear(std::size_t columns) {
-  columns_.assign((columns + kAtOnce - 1) / kAtOnce, Tiers{});
+  columns_.assign(padded(columns) / kAtOnce, Tiers{});
 }
 
 void ScanClusters::add_row(int v_px, const float* quanta) {

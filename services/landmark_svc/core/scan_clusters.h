@@ -20,13 +20,17 @@ struct ScanCluster {
 class ScanClusters {
  public:
   static constexpr std::size_t kAtOnce = 8;
+  /// Up to a whole number of kAtOnce.
+  static constexpr std::size_t padded(std::size_t columns) {
+    return (columns + kAtOnce - 1) / kAtOnce * kAtOnce;
+  }
 
   /// Makes room for so many columns: clear() allocates nothing then.
   void reserve(std::size_t columns);
   /// So many columns, and no reading.
   void clear(std::size_t columns);
   /// Row `v_px`, below all before. `quanta`: a reading for each column, 0 for none, and zeros up to
-  /// a whole number of kAtOnce.
+  /// padded().
   void add_row(int v_px, const float* quanta);
   /// The nearest cluster of a column, of those with at least `rows_min` rows.
   std::optional<ScanCluster> nearest(std::size_t column, double rows_min) const;

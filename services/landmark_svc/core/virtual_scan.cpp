@@ -11,11 +11,6 @@ namespace {
 /// Rays that go up or down more steeply are left out.
 constexpr float kAlongMin = 0.1F;
 
-std::size_t whole_vectors(int width_px) {
-  return (static_cast<std::size_t>(width_px) + ScanClusters::kAtOnce - 1) / ScanClusters::kAtOnce *
-         ScanClusters::kAtOnce;
-}
-
 /// Linear in the image: at column u of a row, constant + per_column u.
 struct RowLine {
   float constant;
@@ -84,7 +79,7 @@ RowLine row_line(const Eigen::Vector3d& g, const PinholeCamera& camera, int v_px
 
 void VirtualScan::reserve(int width_px) {
   clusters_.reserve(static_cast<std::size_t>(width_px));
-  quanta_.reserve(whole_vectors(width_px));
+  quanta_.reserve(ScanClusters::padded(static_cast<std::size_t>(width_px)));
   points_.reserve(static_cast<std::size_t>(width_px));
   beyond_rows_.reserve(static_cast<std::size_t>(width_px));
   open_px_.reserve(static_cast<std::size_t>(width_px));
@@ -112,7 +107,7 @@ void VirtualScan::make(const DepthImage& depth, const PinholeCamera& camera,
                     static_cast<float>(1.0 - params.height_low_m / floor.height_m)};
 
   clusters_.clear(static_cast<std::size_t>(region.width_px()));
-  quanta_.assign(whole_vectors(region.width_px()), 0.0F);
+  quanta_.assign(ScanClusters::padded(static_cast<std::size_t>(region.width_px())), 0.0F);
   beyond_rows_.assign(static_cast<std::size_t>(region.width_px()), 0);
   const int step = std::max(1, params.row_step_px * depth.height_px / 480);
   const Readings readings{table.smallest_good_step(), table.largest_good_step(),

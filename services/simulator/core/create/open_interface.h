@@ -60,6 +60,8 @@ class OpenInterface {
 
   OiMode mode() const { return mode_; }
   int baud() const { return baud_; }
+  /// What a stream frame can have sent before the next is due; the rest of it never leaves.
+  std::size_t bytes_per_slot() const;
   double wheel_base_m() const { return wheel_base_m_; }
 
   /// Power cycles and resets so far: encoders start anew with each.
@@ -95,7 +97,6 @@ class OpenInterface {
   void append_packets(std::uint8_t id, std::vector<std::uint8_t>& out);
   void reply(const std::vector<std::uint8_t>& ids);
   void send_stream_frame();
-  std::size_t bytes_per_slot() const;
 
   OpenInterfaceParams params_;
   CreateModel model_;
